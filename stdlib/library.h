@@ -1,0 +1,71 @@
+// The standard library as data: what the compiler, the interpreter's module and the manual know of each function.
+// Everything here is generated from table.def; a row that does not fit its C++ function does not compile.
+//
+// Compiled code calls a function by its export for one number representation and width,
+//
+//     void ms_<symbol>_<f32|f64>_w<W>(void* result..., const void* argument...)
+//
+// one pointer a result and then one a parameter, each to `component_count(type)` lane vectors in memory order
+// x, y, z, w (matrices column by column). The lane vector of W lanes is, for numbers, W floats or doubles; for
+// integers, W int64_t; for booleans, W bytes of 0 or 1; W = 1 is the plain scalar. Vectors are aligned to their size.
+// The exports live in bitcode (library_bitcode) and are always inlined, after which nothing of the pointers is left.
+// Every function is pure, terminates, and is defined for every bit pattern of its arguments, so it may be called with
+// garbage in lanes that are switched off.
+#pragma once
+
+#include "stdlib/value_type.h"
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+namespace moonshade {
+
+/// How `number` is represented: `float` or `double`.
+enum class Precision : uint8_t { F32, F64 };
+
+/// The lane counts for which code can be made.
+inline constexpr std::array<unsigned, 5> kWidths = {1, 4, 8, 16, 32};
+
+/// One overload of a function of the library.
+struct LibraryFunction {
+  static constexpr unsigned kMaxParameters = 8;
+  static constexpr unsigned kMaxResults = 4;
+
+  /// As Lua writes it: "noise", "math.sin". Operators that are more than one instruction begin with "op.": "op.mod".
+  std::string_view name;
+  /// The middle of the exports' names; unique in the table.
+  std::string_view symbol;
+  uint8_t parameter_count;
+  /// Parameters without a default; those after them may be left out and are then `defaults[index]`.
+  uint8_t required_count;
+  uint8_t result_count;
+  /// A function of numbers that also takes vectors, by component; a number beside a vector counts for each component.
+  bool componentwise;
+  std::array<ValueType, kMaxParameters> parameters;
+  std::array<ValueType, kMaxResults> results;
+  std::array<double, kMaxParameters> defaults;
+  /// Parameter names, separated by blanks, and one line of documentation.
+  std::string_view parameter_names;
+  std::string_view doc;
+};
+
+/// The whole library; overloads of one name stand side by side, in the order in which they are tried.
+std::span<const LibraryFunction> library();
+
+/// The overloads of `name`; empty where the library has no such function.
+std::span<const LibraryFunction> library_overloads(std::string_view name);
+
+/// The bitcode of all exports for one domain. Static storage.
+std::span<const char> library_bitcode(Precision precision, unsigned width);
+
+/// A C function that the bitcode calls by name (the C library's own sin, pow, ... under names of ours, so that no
+/// optimiser takes them for the functions it knows and rounds them another way).
+struct LibraryExternal {
+  const char* name;
+  void* address;
+};
+std::span<const LibraryExternal> library_externals();
+
+} // namespace moonshade
