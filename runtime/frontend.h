@@ -1,0 +1,44 @@
+// The stages of the compiler up to LLVM, for tools that print them: check a file, describe it, emit a stage as text.
+#pragma once
+
+#include "compiler/base/diagnostics.h"
+#include "runtime/shader.h"
+
+#include <memory>
+#include <string>
+
+namespace moonshade {
+
+/// A parsed and checked shader.
+class CheckedShader {
+public:
+  CheckedShader(const std::string& name, const std::string& text, const std::vector<std::string>& entries = {});
+  ~CheckedShader();
+  CheckedShader(CheckedShader&&) noexcept;
+  CheckedShader& operator=(CheckedShader&&) noexcept;
+
+  bool ok() const; ///< no error was reported
+  const ShaderInfo& info() const;
+  const Diagnostics& diagnostics() const;
+  const SourceSet& sources() const;
+
+  struct Parts; ///< arena, chunk, sema's program: for the runtime itself
+  const Parts& parts() const { return *parts_; }
+
+private:
+  std::unique_ptr<Parts> parts_;
+};
+
+enum class Stage { Ast, Ir, Llvm, Assembly, Object };
+
+struct Emission {
+  std::string bytes;
+  std::string error; ///< for instance an unknown CPU; empty where there is none
+};
+/// The text (or object file) of one stage of an `ok()` shader; Ast also of one that is not.
+Emission emit(const CheckedShader& shader, Stage stage, const CompileOptions& options);
+
+/// Compiles an already checked shader.
+Compilation compile(const CheckedShader& shader, const CompileOptions& options);
+
+} // namespace moonshade

@@ -1,0 +1,21 @@
+// The stock-Lua oracle: the same shader file run by liblua5.4 beside the module `moonshade`, every argument over the Lua
+// stack, always in double. Its states have no io, os, debug, package or load.
+#pragma once
+
+#include "runtime/frontend.h"
+#include "runtime/shader.h"
+
+namespace moonshade {
+
+struct InterpretOptions {
+  /// Count steps exactly as compiled code does and fault at the limit; costs time. Off: only a coarse guard against
+  /// endless loops.
+  bool count_steps = true;
+  uint64_t step_limit = 1'000'000;
+};
+
+/// Loads a checked shader into stock Lua. run() serves any number of threads: each call borrows a Lua state of its own.
+Instantiation interpret(const CheckedShader& shader, const std::map<std::string, Constant>& parameters,
+                        const InterpretOptions& options);
+
+} // namespace moonshade

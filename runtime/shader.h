@@ -1,0 +1,132 @@
+// Shaders as a host sees them: compile once, instantiate with parameters, call for batches of points.
+//
+//     auto compiled = moonshade::compile("copper.lua", text, {});
+//     if (!compiled.program) { std::cerr << compiled.diagnostics; return 1; }
+//     auto instance = compiled.program->instantiate({{"scale", 8.0}});
+//     instance.shader->run(instance.shader->info().entry_index("color"), batch);
+//
+// Two kinds of shader stand behind one interface: compiled code, and the same file run by stock Lua 5.4 (interpret.h).
+// Thread safety: a Program and a Shader are immutable and may be used by any number of threads at once; so may compile
+// and instantiate. There is no global state. This header needs neither LLVM nor Lua, and compiles with g++ 12.
+#pragma once
+
+#include "compiler/sema/shader_info.h"
+#include "stdlib/library.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace moonshade {
+
+/// How to compile. The defaults suit rendering on this machine.
+struct CompileOptions {
+  Precision precision = Precision::F32;
+  /// Lanes: 1, 4, 8, 16 or 32; 0 = the best for the target.
+  unsigned width = 0;
+  /// As clang's -O0 to -O3.
+  int optimization = 2;
+  /// "native" or a CPU name of LLVM's; other than native only for emitting text.
+  std::string cpu = "native";
+  /// A target triple; empty = this machine's; other than that only for emitting text.
+  std::string target;
+  /// Entry points to compile; empty: all.
+  std::vector<std::string> entries;
+  /// Inputs with one value for a whole batch ("time", "frame"): their pointer in a Batch leads to a single value.
+  std::vector<std::string> uniform_inputs;
+  /// Steps (loop iterations and calls of the shader's functions) after which a point faults.
+  uint64_t step_limit = 1'000'000;
+  /// At most this many diagnostics are kept, and colour is used in their text.
+  bool color_diagnostics = false;
+};
+
+/// What can make a point fault; "fault: division by zero" in messages uses fault_name.
+enum class FaultCode : uint32_t { None, Index, DivideByZero, Assert, Error, ForStepZero, StepLimit, IntegerRange };
+
+/// "index", "division", "assert", "error", "for-step", "step-limit", "integer-range".
+const char* fault_name(FaultCode code);
+
+/// Faults of one call of Shader::run. Plain data; the caller sets it to zero (or {}) before the call.
+struct FaultReport {
+  uint64_t count = 0;       ///< points that faulted
+  uint64_t first_point = 0; ///< index in the batch of the lowest of them
+  FaultCode first_code = FaultCode::None;
+  uint32_t first_site = 0;  ///< of the first: for Shader::fault_site
+};
+
+/// A batch of points. Inputs and outputs are structure-of-arrays: one array a component, each of `count` elements,
+/// aligned to its element. Elements are float (F32) or double (F64) for numbers and vector components, int64_t for
+/// integers, uint8_t (0 or 1) for booleans.
+struct Batch {
+  uint64_t count = 0;
+  /// One pointer for each component of each input that the entry declares, in the order of EntryInfo::inputs.
+  const void* const* inputs = nullptr;
+  /// One pointer for each component of each result. Points that fault get zeros.
+  void* const* outputs = nullptr;
+  /// Null: faults are not reported (outputs are zero all the same).
+  FaultReport* faults = nullptr;
+  /// Null, or `count` bytes: the FaultCode of each point (0: none).
+  uint8_t* fault_codes = nullptr;
+};
+
+/// Where a fault stands in the source.
+struct FaultSite {
+  std::string file;
+  uint32_t line = 0, column = 0;
+  std::string message; ///< of assert and error
+};
+
+/// A shader with its parameters set, ready to be called.
+class Shader {
+public:
+  virtual ~Shader() = default;
+  virtual const ShaderInfo& info() const = 0;
+  /// Representation of numbers in batches.
+  virtual Precision precision() const = 0;
+  /// Lanes of the compiled code; 1 for the interpreter.
+  virtual unsigned width() const = 0;
+  /// Shades a batch. `entry` is an index into info().entries. Safe to call from any number of threads.
+  virtual void run(size_t entry, const Batch& batch) const = 0;
+  virtual FaultSite fault_site(uint32_t site) const = 0;
+};
+
+struct Instantiation {
+  std::shared_ptr<const Shader> shader; ///< null where `error` is set
+  std::string error;                    ///< names the parameter, or the fault of the top level
+};
+
+/// Milliseconds of each stage of one compilation.
+struct CompileTimes {
+  double parse = 0, sema = 0, ir = 0, emit = 0, optimize = 0, codegen = 0, total = 0;
+};
+
+/// Compiled code for one shader, without values of its parameters.
+class Program {
+public:
+  virtual ~Program() = default;
+  virtual const ShaderInfo& info() const = 0;
+  virtual unsigned width() const = 0;
+  virtual const CompileTimes& times() const = 0;
+  /// Sets parameters (defaults where not given) and runs the top level. Compiles nothing.
+  virtual Instantiation instantiate(const std::map<std::string, Constant>& parameters) const = 0;
+};
+
+struct Compilation {
+  std::shared_ptr<const Program> program; ///< null where there was an error
+  std::string diagnostics;                ///< errors and warnings as text; empty where there are none
+};
+
+/// Compiles the shader `text`; `name` is its file's name in messages.
+Compilation compile(const std::string& name, const std::string& text, const CompileOptions& options);
+
+/// The widest machine vectors' best lane count on this machine for the precision.
+unsigned native_width(Precision precision);
+
+/// "moonshade 0.1.0 (LLVM 19.1.7)".
+std::string version();
+
+} // namespace moonshade
