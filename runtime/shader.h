@@ -10,6 +10,7 @@
 // and instantiate. There is no global state. This header needs neither LLVM nor Lua, and compiles with g++ 12.
 #pragma once
 
+#include "compiler/base/fault.h"
 #include "compiler/sema/shader_info.h"
 #include "stdlib/library.h"
 
@@ -43,12 +44,6 @@ struct CompileOptions {
   /// At most this many diagnostics are kept, and colour is used in their text.
   bool color_diagnostics = false;
 };
-
-/// What can make a point fault; "fault: division by zero" in messages uses fault_name.
-enum class FaultCode : uint32_t { None, Index, DivideByZero, Assert, Error, ForStepZero, StepLimit, IntegerRange };
-
-/// "index", "division", "assert", "error", "for-step", "step-limit", "integer-range".
-const char* fault_name(FaultCode code);
 
 /// Faults of one call of Shader::run. Plain data; the caller sets it to zero (or {}) before the call.
 struct FaultReport {

@@ -47,6 +47,7 @@
 // Module::step_limit + 1 faults with StepLimit. Arithmetic never faults.
 #pragma once
 
+#include "compiler/base/fault.h"
 #include "compiler/base/source.h"
 #include "stdlib/library.h"
 
@@ -69,10 +70,6 @@ struct OpInfo {
   OpShape shape;
 };
 const OpInfo& info(Op op);
-
-/// What a point can fault with; the names are part of the command line's contract ("fault: index").
-enum class FaultKind : uint8_t { Index, DivideByZero, Assert, Error, ForStepZero, StepLimit, IntegerRange };
-const char* name_of(FaultKind kind);
 
 using ValueId = uint32_t;
 using VariableId = uint32_t;
@@ -97,7 +94,7 @@ struct Instruction {
   double number = 0;      // ConstNumber
   uint32_t index = 0;     // Argument, Component, Result: which; Load*/Store*: the variable or global;
                           // Call: the function; Loop, Scope: own label; Break: target label
-  FaultKind fault{};      // Fault
+  FaultCode fault{};      // Fault
   std::string text;       // Fault: message of assert and error; Print: label
   const LibraryFunction* library = nullptr; // CallLibrary
   std::vector<VariableId> variables;        // Call: bound to the callee's captures
