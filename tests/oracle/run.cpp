@@ -1,0 +1,90 @@
+// tests/oracle/run: generated programs, in stock Lua and compiled. A failure is reduced and written to a file.
+#include "tests/oracle/compare.h"
+#include "tests/oracle/generator.h"
+#include "tests/oracle/random.h"
+
+#include <CLI/CLI.hpp>
+
+#include <atomic>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <mutex>
+#include <thread>
+
+namespace {
+
+using namespace moonshade;
+using namespace moonshade::oracle;
+
+struct Settings {
+  uint64_t first = 1, programs = 200;
+  bool draw = false, no_reduce = false;
+  unsigned threads = std::max(1u, std::thread::hardware_concurrency());
+  std::string out = "oracle-failures";
+  uint64_t print = 0;
+};
+
+struct Tally {
+  std::mutex mutex;
+  uint64_t done = 0, failed = 0, variants = 0;
+};
+
+void report_failure(const Settings& settings, uint64_t seed, const std::string& text,
+                    const std::vector<Variant>& variants, const Outcome& outcome, Tally& tally) {
+  const std::string reduced = settings.no_reduce ? text : reduce(text, variants, seed, outcome.verdict);
+  const std::lock_guard lock(tally.mutex);
+  ++tally.failed;
+  std::filesystem::create_directories(settings.out);
+  const std::string name = settings.out + "/" + std::to_string(seed);
+  std::ofstream(name + ".lua") << "-- seed " << seed << ": " << outcome.detail.substr(0, outcome.detail.find('\n'))
+                               << "\n"
+                               << reduced;
+  std::cout << "seed " << seed << ": " << outcome.detail << "\n" << reduced << std::endl;
+}
+
+void work(const Settings& settings, std::atomic<uint64_t>& next, Tally& tally) {
+  for (;;) {
+    const uint64_t index = next++;
+    if (index >= settings.programs) return;
+    const uint64_t seed = settings.first + index;
+    const std::string text = generate_program(seed);
+    std::vector<Variant> variants = all_variants();
+    if (settings.draw) variants = {variants[Random(seed ^ 0x5eed).below(variants.size())]};
+    const Outcome outcome = compare(text, variants, seed);
+    if (outcome.verdict != Verdict::Agrees) report_failure(settings, seed, text, variants, outcome, tally);
+    const std::lock_guard lock(tally.mutex);
+    ++tally.done;
+    tally.variants += variants.size();
+    if (tally.done % 1000 == 0) std::cerr << tally.done << " programs, " << tally.failed << " failures" << std::endl;
+  }
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+  Settings settings;
+  CLI::App app("Runs generated shaders in stock Lua and compiled, and compares the results bit for bit.");
+  app.add_option("--programs", settings.programs, "how many programs");
+  app.add_option("--seed", settings.first, "seed of the first; the others follow it");
+  app.add_flag("--draw", settings.draw, "each program in one variant drawn at random, not in all");
+  app.add_flag("--no-reduce", settings.no_reduce, "write failures as they are");
+  app.add_option("--threads", settings.threads, "worker threads")->check(CLI::Range(1, 1024));
+  app.add_option("--out", settings.out, "folder for failing programs");
+  app.add_option("--print", settings.print, "only print the program of this seed");
+  CLI11_PARSE(app, argc, argv);
+  if (settings.print) {
+    std::cout << generate_program(settings.print);
+    return 0;
+  }
+  std::atomic<uint64_t> next = 0;
+  Tally tally;
+  std::vector<std::thread> threads;
+  for (unsigned i = 0; i < settings.threads; ++i)
+    threads.emplace_back([&] { work(settings, next, tally); });
+  for (std::thread& thread : threads)
+    thread.join();
+  std::cout << tally.done << " programs (seeds " << settings.first << " to " << settings.first + settings.programs - 1
+            << "), " << tally.variants << " compilations, " << tally.failed << " failures" << std::endl;
+  return tally.failed ? 1 : 0;
+}
