@@ -42,8 +42,8 @@
 // goes on behind it. `return` gives the function's results. Nothing follows break or return in their block. A function
 // with results ends in a return on every path.
 //
-// Faults. `fault` with a true condition ends the execution of the point, in whatever depth of calls; the point's outputs
-// are zero and the fault is reported with its kind and span. `step` counts one step of the point; the count of
+// Faults. `fault` with a true condition ends the execution of the point, in whatever depth of calls; the point's
+// outputs are zero and the fault is reported with its kind and span. `step` counts one step of the point; the count of
 // Module::step_limit + 1 faults with StepLimit. Arithmetic never faults.
 #pragma once
 
@@ -90,12 +90,12 @@ struct Instruction {
   std::vector<ValueId> operands;
 
   // What only some operations have.
-  int64_t integer = 0;    // ConstBoolean (0, 1), ConstInteger
-  double number = 0;      // ConstNumber
-  uint32_t index = 0;     // Argument, Component, Result: which; Load*/Store*: the variable or global;
-                          // Call: the function; Loop, Scope: own label; Break: target label
-  FaultCode fault{};      // Fault
-  std::string text;       // Fault: message of assert and error; Print: label
+  int64_t integer = 0;                      // ConstBoolean (0, 1), ConstInteger
+  double number = 0;                        // ConstNumber
+  uint32_t index = 0;                       // Argument, Component, Result: which; Load*/Store*: the variable or global;
+                                            // Call: the function; Loop, Scope: own label; Break: target label
+  FaultCode fault{};                        // Fault
+  std::string text;                         // Fault: message of assert and error; Print: label
   const LibraryFunction* library = nullptr; // CallLibrary
   std::vector<VariableId> variables;        // Call: bound to the callee's captures
   std::vector<Block> blocks;                // If: then, else; Loop, Scope: body
