@@ -32,13 +32,18 @@ struct Type {
     Value,    ///< `value`
     String,   ///< a compile-time constant, `text`
     Function, ///< a function of the shader, `function`
+    Library,  ///< a function or table of the library, `text` its name ("noise", "math.sin", "math"); no storage
   };
   Kind kind = Kind::Unknown;
   ValueType value = ValueType::Boolean;
   const syntax::Function* function = nullptr;
   std::string_view text;
+  /// A number that stock Lua may hold as an integer (both were given to it): the same at run time, but `//`, `%` and
+  /// math.type of it are refused. `is(Number)` holds.
+  bool mixed = false;
 
-  static Type of(ValueType value) { return {Kind::Value, value, nullptr, {}}; }
+  static Type of(ValueType value) { return {Kind::Value, value, nullptr, {}, false}; }
+  bool is_value() const { return kind == Kind::Value; }
   bool is(ValueType other) const { return kind == Kind::Value && value == other; }
   bool operator==(const Type&) const = default;
 };
@@ -68,9 +73,15 @@ enum class CallKind : uint8_t {
 /// How an operator expression is to be computed.
 enum class OperatorForm : uint8_t {
   Plain,       ///< operands converted to the operation's type (`operand_type`)
-  Mixed,       ///< comparison of an integer with a number: library row "op.*" in `library`
+  Mixed,       ///< comparison of an integer with a number: library row "op.lt", "op.le" or "op.eq" in `library`. Its
+               ///< parameters tell the order: `a > b` is op.lt(b, a), `a >= b` op.le(b, a); op.eq takes the integer
+               ///< first; `~=` is the negation
   Logical,     ///< `and`, `or`, `not` on booleans; the right side is evaluated only where Lua does
-  Conditional, ///< an `or` whose left side is `c and a`: c decides between a and b, results converted to the type
+  Conditional, ///< an `or` whose left side is `c and a`: c decides between a and b, results converted to the type.
+               ///< In a chain `c and a or d and b or e` the inner `or` (the left side) is marked Conditional too, with
+               ///< the type of the whole; so is every `and` that is an arm. The left side may stand in parentheses
+  Constant,    ///< known while compiling, `integer_constant` (boolean: 0 or 1); operands are not evaluated:
+               ///< `#"text"`, comparisons of constant strings
 };
 
 /// Facts about an expression node.
@@ -91,7 +102,7 @@ struct ExpressionFact {
 
 /// A variable that a specialisation owns.
 struct LocalFact {
-  Type type;                     ///< Value: a variable at run time. Function, String: no storage
+  Type type;                     ///< Value: a variable at run time. Function, Library, String, Unknown: no storage
   bool captured_by_call = false; ///< a local function reads or assigns it
 };
 
@@ -99,6 +110,9 @@ struct Specialisation {
   uint32_t id = 0;
   const syntax::Function* function = nullptr;
   std::string name;                  ///< for messages and the IR: "height", "falloff#2"
+  /// Of the arguments as passed: a parameter to which the body gives a number too may be an integer here and a number
+  /// in `locals` (converted on entry). String parameters have no storage and are not passed at run time. A call may
+  /// have more arguments than these; the rest is evaluated and dropped.
   std::vector<Type> parameters;
   std::vector<Type> results;         ///< converted to by every return
   /// Variables of enclosing functions (not the top level) that this function or those it calls use, by reference, in
