@@ -1,5 +1,9 @@
-// The stock-Lua oracle: the same shader file run by liblua5.4 beside the module `moonshade`, every argument over the Lua
-// stack, always in double. Its states have no io, os, debug, package or load.
+// The stock-Lua oracle: the same shader file run by liblua5.4 beside the module `moonshade`, every argument over the
+// Lua stack, always in double. Its states have no io, os, debug, package or load.
+//
+// Where stock Lua goes on with a value that the dialect has no place for (LANGUAGE section 9: the step limit, and
+// conversions to an integer that no integer represents), these states raise the dialect's fault, so that values and
+// faults are those of compiled code under f64.
 #pragma once
 
 #include "runtime/frontend.h"
@@ -11,6 +15,7 @@ struct InterpretOptions {
   /// Count steps exactly as compiled code does and fault at the limit; costs time. Off: only a coarse guard against
   /// endless loops.
   bool count_steps = true;
+  /// 0, and count_steps off: no guard at all, for measurements of shaders that are known to end.
   uint64_t step_limit = 1'000'000;
 };
 

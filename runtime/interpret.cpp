@@ -1,0 +1,178 @@
+// The stock-Lua oracle behind the Shader interface: a pool of Lua states, one for each call of run() under way.
+#include "runtime/interpret.h"
+
+#include "compiler/base/arena.h"
+#include "compiler/base/diagnostics.h"
+#include "compiler/syntax/parser.h"
+#include "runtime/interpret_state.h"
+#include "runtime/interpret_steps.h"
+
+#include <cfenv>
+#include <mutex>
+
+namespace moonshade {
+
+namespace {
+
+/// What Lua's loader of files skips: a byte order mark and a first line that begins with `#`. Lines keep their numbers.
+std::string without_prologue(std::string text) {
+  if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
+  if (text.starts_with("#")) text.erase(0, std::min(text.find('\n'), text.size()));
+  return text;
+}
+
+std::string counted_text(const std::string& name, const std::string& text) {
+  SourceSet sources;
+  Arena arena;
+  Diagnostics diagnostics;
+  const FileId file = sources.add(name, text);
+  const syntax::Chunk* chunk = syntax::parse(sources, file, arena, diagnostics);
+  return with_counted_steps(*chunk, sources.text(file));
+}
+
+/// Shading happens in the default floating-point environment, whatever the host's is.
+class DefaultFloatingPoint {
+public:
+  DefaultFloatingPoint() {
+    std::fegetenv(&saved_);
+    std::fesetenv(FE_DFL_ENV);
+  }
+  ~DefaultFloatingPoint() { std::fesetenv(&saved_); }
+  DefaultFloatingPoint(const DefaultFloatingPoint&) = delete;
+  DefaultFloatingPoint& operator=(const DefaultFloatingPoint&) = delete;
+
+private:
+  std::fenv_t saved_;
+};
+
+class InterpretedShader final : public Shader {
+public:
+  explicit InterpretedShader(InterpretSource source) : source_(std::move(source)) {}
+
+  /// Opens the first state, so that what is wrong with the top level shows at once.
+  std::string start() {
+    std::string error;
+    if (auto state = InterpretState::open(source_, error)) idle_.push_back(std::move(state));
+    return error;
+  }
+
+  const ShaderInfo& info() const override { return source_.info; }
+  Precision precision() const override { return Precision::F64; }
+  unsigned width() const override { return 1; }
+
+  void run(size_t entry, const Batch& batch) const override {
+    DefaultFloatingPoint environment;
+    std::unique_ptr<InterpretState> state = borrow();
+    if (!state) return fail(entry, batch);
+    for (uint64_t row = 0; row < batch.count; ++row) {
+      const FaultCode code = state->call(entry, batch, row);
+      if (batch.fault_codes) batch.fault_codes[row] = uint8_t(code);
+      if (code != FaultCode::None && batch.faults)
+        report(*batch.faults, code, row, [&] { return state->last_fault(); });
+    }
+    std::lock_guard lock(mutex_);
+    idle_.push_back(std::move(state));
+  }
+
+  FaultSite fault_site(uint32_t site) const override {
+    std::lock_guard lock(mutex_);
+    if (site >= sites_.size()) return {};
+    const InterpretFault& fault = sites_[site];
+    return {source_.name, fault.line, column_of(fault), fault.message};
+  }
+
+private:
+  std::unique_ptr<InterpretState> borrow() const {
+    {
+      std::lock_guard lock(mutex_);
+      if (!idle_.empty()) {
+        auto state = std::move(idle_.back());
+        idle_.pop_back();
+        return state;
+      }
+    }
+    std::string error;
+    return InterpretState::open(source_, error);
+  }
+
+  template <class Describe> void report(FaultReport& report, FaultCode code, uint64_t row, Describe describe) const {
+    if (report.count++ != 0) return;
+    report.first_point = row;
+    report.first_code = code;
+    report.first_site = add_site(describe());
+  }
+
+  uint32_t add_site(InterpretFault fault) const {
+    std::lock_guard lock(mutex_);
+    for (size_t i = 0; i < sites_.size(); ++i)
+      if (sites_[i].code == fault.code && sites_[i].line == fault.line && sites_[i].message == fault.message)
+        return uint32_t(i);
+    sites_.push_back(std::move(fault));
+    return uint32_t(sites_.size() - 1);
+  }
+
+  /// No state could be had (memory): every point faults.
+  void fail(size_t entry, const Batch& batch) const {
+    size_t component = 0;
+    for (ValueType type : source_.info.entries[entry].results)
+      for (unsigned i = 0; i < component_count(type); ++i, ++component) {
+        const size_t size = type == ValueType::Boolean ? 1 : 8;
+        std::fill_n(static_cast<char*>(batch.outputs[component]), size * batch.count, 0);
+      }
+    for (uint64_t row = 0; row < batch.count; ++row) {
+      if (batch.fault_codes) batch.fault_codes[row] = uint8_t(FaultCode::Error);
+      if (batch.faults)
+        report(*batch.faults, FaultCode::Error, row,
+               [] { return InterpretFault{FaultCode::Error, 1, "no memory for a Lua state"}; });
+    }
+  }
+
+  /// Lua knows lines only: the column of what the fault is likely to mean in its line.
+  uint32_t column_of(const InterpretFault& fault) const {
+    size_t begin = 0;
+    for (uint32_t line = 1; line < fault.line; ++line) {
+      const size_t end = source_.text.find('\n', begin);
+      if (end == std::string::npos) return 1;
+      begin = end + 1;
+    }
+    std::string_view line = std::string_view(source_.text).substr(begin);
+    line = line.substr(0, line.find('\n'));
+    const char* word = fault.code == FaultCode::Assert ? "assert" : fault.code == FaultCode::Error ? "error" : "";
+    size_t column = *word ? line.find(word) : std::string_view::npos;
+    if (column == std::string_view::npos) column = line.find_first_not_of(" \t");
+    return column == std::string_view::npos ? 1 : uint32_t(column + 1);
+  }
+
+  const InterpretSource source_;
+  mutable std::mutex mutex_; // guards the two below
+  mutable std::vector<std::unique_ptr<InterpretState>> idle_;
+  mutable std::vector<InterpretFault> sites_;
+};
+
+} // namespace
+
+Instantiation interpret(const CheckedShader& shader, const std::map<std::string, Constant>& parameters,
+                        const InterpretOptions& options) {
+  InterpretSource source;
+  source.name = shader.sources().name(0);
+  source.text = without_prologue(std::string(shader.sources().text(FileId{0})));
+  source.loaded = options.count_steps ? counted_text(source.name, source.text) : source.text;
+  source.info = shader.info();
+  source.count_steps = options.count_steps;
+  source.step_limit = options.step_limit;
+  for (const auto& [name, value] : parameters) {
+    const ParameterInfo* parameter = nullptr;
+    for (const ParameterInfo& candidate : source.info.parameters)
+      if (candidate.name == name) parameter = &candidate;
+    if (!parameter) return {nullptr, "the shader has no parameter '" + name + "'"};
+    CheckedConstant checked = check_override(*parameter, value);
+    if (!checked.error.empty()) return {nullptr, checked.error};
+    source.parameters.emplace(name, std::move(checked.value));
+  }
+  auto interpreted = std::make_shared<InterpretedShader>(std::move(source));
+  DefaultFloatingPoint environment;
+  if (std::string error = interpreted->start(); !error.empty()) return {nullptr, error};
+  return {interpreted, ""};
+}
+
+} // namespace moonshade

@@ -1,0 +1,340 @@
+// One sandboxed Lua state. Lua (built as C) leaves functions by longjmp, so the C functions here hold nothing that has
+// a destructor, and what they have to tell stands in a Record at a fixed address that the state's extra space points
+// to.
+#include "runtime/interpret_state.h"
+
+#include "stdlib/lua_module.h"
+
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <lua.hpp>
+
+namespace moonshade {
+
+/// What the functions that shaders call leave behind for us.
+struct InterpretState::Record {
+  FaultCode code = FaultCode::None;
+  uint32_t line = 0;
+  char message[400] = "";
+  uint64_t steps_left = 0;
+  uint64_t hooks_left = 0;
+
+  void clear() {
+    code = FaultCode::None;
+    line = 0;
+    message[0] = 0;
+  }
+};
+
+namespace {
+
+using Record = InterpretState::Record;
+
+/// Without counted steps, instructions of Lua's machine that stand for a step at least, and those between two looks.
+constexpr uint64_t kInstructionsPerStep = 200;
+constexpr int kInstructionsPerHook = 100'000;
+
+/// Raised in place of a message once the Record says what happened.
+constexpr char kRecorded = 0;
+
+Record& record_of(lua_State* lua) { return **static_cast<Record**>(lua_getextraspace(lua)); }
+
+/// The line in the shader that runs, seen from a C function or a message handler; 0 where Lua does not know any more
+/// (a call in tail position).
+uint32_t current_line(lua_State* lua) {
+  lua_Debug frame;
+  for (int level = 0; lua_getstack(lua, level, &frame); ++level)
+    if (lua_getinfo(lua, "l", &frame) && frame.currentline > 0) return uint32_t(frame.currentline);
+  return 0;
+}
+
+int raise_fault(lua_State* lua, FaultCode code, const char* message) {
+  Record& record = record_of(lua);
+  record.code = code;
+  record.line = current_line(lua);
+  std::snprintf(record.message, sizeof record.message, "%s", message);
+  lua_pushlightuserdata(lua, const_cast<char*>(&kRecorded));
+  return lua_error(lua);
+}
+
+// ---- what shaders call ---------------------------------------------------------------------------------------------
+
+int checked_assert(lua_State* lua) {
+  if (lua_toboolean(lua, 1)) return lua_gettop(lua);
+  const char* message = lua_type(lua, 2) == LUA_TSTRING ? lua_tostring(lua, 2) : "assertion failed!";
+  return raise_fault(lua, FaultCode::Assert, message);
+}
+
+int raise_error(lua_State* lua) {
+  return raise_fault(lua, FaultCode::Error, lua_type(lua, 1) == LUA_TSTRING ? lua_tostring(lua, 1) : "");
+}
+
+/// math.floor and math.ceil of Lua's own library, but a fault where those would go on with a float.
+template <double (*Round)(double)> int to_integer(lua_State* lua) {
+  if (lua_isinteger(lua, 1)) {
+    lua_settop(lua, 1);
+    return 1;
+  }
+  lua_Integer integer;
+  if (!lua_numbertointeger(Round(luaL_checknumber(lua, 1)), &integer))
+    return raise_fault(lua, FaultCode::IntegerRange, "");
+  lua_pushinteger(lua, integer);
+  return 1;
+}
+
+/// math.tointeger, but a fault where that would give nil.
+int exact_integer(lua_State* lua) {
+  int is_integer = 0;
+  const lua_Integer integer = lua_tointegerx(lua, 1, &is_integer);
+  if (!is_integer) return raise_fault(lua, FaultCode::IntegerRange, "");
+  lua_pushinteger(lua, integer);
+  return 1;
+}
+
+int count_step(lua_State* lua) {
+  Record& record = record_of(lua);
+  if (record.steps_left == 0) return raise_fault(lua, FaultCode::StepLimit, "");
+  --record.steps_left;
+  return 0;
+}
+
+void watch_instructions(lua_State* lua, lua_Debug*) {
+  Record& record = record_of(lua);
+  if (record.hooks_left-- == 0) raise_fault(lua, FaultCode::StepLimit, "");
+}
+
+// ---- errors of Lua's own -------------------------------------------------------------------------------------------
+
+FaultCode classify(const char* message) {
+  const auto says = [&](const char* part) { return std::strstr(message, part) != nullptr; };
+  if (says("attempt to perform 'n//0'") || says("attempt to perform 'n%%0'")) return FaultCode::DivideByZero;
+  if (says("bad argument #2 to 'fmod' (zero)")) return FaultCode::DivideByZero;
+  if (says("'for' step is zero")) return FaultCode::ForStepZero;
+  if (says("number has no integer representation")) return FaultCode::IntegerRange;
+  if (says("attempt to index") || says("out of range")) return FaultCode::Index;
+  return FaultCode::Error;
+}
+
+/// Runs while the stack of the error still stands, so that the line can be told.
+int note_error(lua_State* lua) {
+  if (lua_touserdata(lua, 1) == &kRecorded) return 1;
+  Record& record = record_of(lua);
+  const char* message = lua_type(lua, 1) == LUA_TSTRING ? lua_tostring(lua, 1) : "an error that is no message";
+  record.code = classify(message);
+  record.line = current_line(lua);
+  std::snprintf(record.message, sizeof record.message, "%s", record.code == FaultCode::Error ? message : "");
+  return 1;
+}
+
+constexpr int kHandler = 1; // its place on the stack, below everything else
+
+int protected_call(lua_State* lua, int arguments, int results) {
+  const int status = lua_pcall(lua, arguments, results, kHandler);
+  if (status == LUA_OK) return status;
+  Record& record = record_of(lua);
+  if (record.code == FaultCode::None) { // no handler runs for these
+    record.code = FaultCode::Error;
+    std::snprintf(record.message, sizeof record.message, "%s",
+                  status == LUA_ERRMEM ? "not enough memory" : "error in Lua");
+  }
+  return status;
+}
+
+// ---- the sandbox ---------------------------------------------------------------------------------------------------
+
+void set_field(lua_State* lua, int table, const char* name, lua_CFunction function) {
+  lua_pushcfunction(lua, function);
+  lua_setfield(lua, table, name);
+}
+
+/// Of the basic library, what the dialect has.
+void open_basics(lua_State* lua) {
+  luaL_requiref(lua, "_G", luaopen_base, 0);
+  lua_newtable(lua);
+  for (const char* name : {"ipairs", "type"}) {
+    lua_getfield(lua, -2, name);
+    lua_setfield(lua, -2, name);
+  }
+  set_field(lua, lua_absindex(lua, -1), "assert", checked_assert);
+  set_field(lua, lua_absindex(lua, -1), "error", raise_error);
+  set_field(lua, lua_absindex(lua, -1), "print", [](lua_State*) { return 0; });
+  lua_rawseti(lua, LUA_REGISTRYINDEX, LUA_RIDX_GLOBALS);
+  lua_pop(lua, 1);
+}
+
+void open_math(lua_State* lua) {
+  luaL_requiref(lua, "math", luaopen_math, 0);
+  set_field(lua, -2, "floor", to_integer<std::floor>);
+  set_field(lua, -2, "ceil", to_integer<std::ceil>);
+  set_field(lua, -2, "tointeger", exact_integer);
+  for (const char* name : {"random", "randomseed"}) {
+    lua_pushnil(lua);
+    lua_setfield(lua, -2, name);
+  }
+  lua_setglobal(lua, "math");
+}
+
+/// Calling a string counts a step (interpret_steps.h).
+void open_steps(lua_State* lua) {
+  lua_pushliteral(lua, "");
+  lua_newtable(lua);
+  set_field(lua, lua_absindex(lua, -1), "__call", count_step);
+  lua_setmetatable(lua, -2);
+  lua_pop(lua, 1);
+}
+
+void push_constant(lua_State* lua, const Constant& constant) {
+  if (const bool* boolean = std::get_if<bool>(&constant))
+    lua_pushboolean(lua, *boolean);
+  else if (const int64_t* integer = std::get_if<int64_t>(&constant))
+    lua_pushinteger(lua, *integer);
+  else if (const double* number = std::get_if<double>(&constant))
+    lua_pushnumber(lua, *number);
+  else if (const auto* vector = std::get_if<std::vector<double>>(&constant))
+    stdlib::push_lua_vector(lua, vector->data(), unsigned(vector->size()));
+  else
+    lua_pushlstring(lua, std::get<std::string>(constant).data(), std::get<std::string>(constant).size());
+}
+
+} // namespace
+
+InterpretState::InterpretState(const InterpretSource& source) : source_(source), record_(std::make_unique<Record>()) {}
+
+InterpretState::~InterpretState() {
+  if (lua_) lua_close(lua_);
+}
+
+std::unique_ptr<InterpretState> InterpretState::open(const InterpretSource& source, std::string& error) {
+  std::unique_ptr<InterpretState> state(new InterpretState(source));
+  return state->load(error) ? std::move(state) : nullptr;
+}
+
+void InterpretState::start_counting() {
+  record_->steps_left = source_.step_limit;
+  const uint64_t hooks = source_.step_limit / kInstructionsPerHook * kInstructionsPerStep;
+  record_->hooks_left = hooks + kInstructionsPerStep;
+}
+
+bool InterpretState::load(std::string& error) {
+  lua_ = luaL_newstate();
+  if (!lua_) {
+    error = "no memory for a Lua state";
+    return false;
+  }
+  *static_cast<Record**>(lua_getextraspace(lua_)) = record_.get();
+  lua_pushcfunction(lua_, note_error);
+  // Everything that can raise an error, out of memory included, happens inside a protected call.
+  lua_pushcfunction(lua_, [](lua_State* lua) {
+    const auto& source = *static_cast<const InterpretSource*>(lua_touserdata(lua, 1));
+    open_basics(lua);
+    open_math(lua);
+    stdlib::luaopen_moonshade(lua);
+    open_steps(lua);
+    for (const auto& [name, value] : source.parameters) {
+      push_constant(lua, value);
+      stdlib::set_lua_parameter(lua, name.c_str());
+    }
+    const std::string& text = source.loaded;
+    if (luaL_loadbufferx(lua, text.data(), text.size(), "=shader", "t") != LUA_OK) return lua_error(lua);
+    lua_call(lua, 0, 0);
+    lua_settop(lua, 0);
+    for (const EntryInfo& entry : source.info.entries)
+      lua_getglobal(lua, entry.name.c_str());
+    return int(source.info.entries.size());
+  });
+  lua_pushlightuserdata(lua_, const_cast<InterpretSource*>(&source_));
+  start_counting();
+  if (!source_.count_steps && source_.step_limit != 0)
+    lua_sethook(lua_, watch_instructions, LUA_MASKCOUNT, kInstructionsPerHook);
+  if (protected_call(lua_, 1, LUA_MULTRET) == LUA_OK) return lua_checkstack(lua_, 200);
+  const InterpretFault fault = last_fault();
+  error = source_.name + ":" + std::to_string(fault.line) + ": fault at the top level: " + fault_name(fault.code);
+  if (!fault.message.empty()) error += ": " + fault.message;
+  return false;
+}
+
+InterpretFault InterpretState::last_fault() const { return {record_->code, record_->line, record_->message}; }
+
+FaultCode InterpretState::call(size_t index, const Batch& batch, uint64_t row) {
+  const EntryInfo& entry = source_.info.entries[index];
+  record_->clear();
+  start_counting();
+  lua_pushvalue(lua_, kHandler + 1 + int(index));
+  push_inputs(entry, batch, row);
+  const int base = lua_gettop(lua_) - int(entry.inputs.size());
+  FaultCode code = FaultCode::None;
+  if (protected_call(lua_, int(entry.inputs.size()), int(entry.results.size())) != LUA_OK)
+    code = record_->code;
+  else
+    code = store_results(entry, batch, row);
+  if (code != FaultCode::None) store_zeros(entry, batch, row);
+  lua_settop(lua_, base - 1);
+  return code;
+}
+
+void InterpretState::push_inputs(const EntryInfo& entry, const Batch& batch, uint64_t row) {
+  const void* const* column = batch.inputs;
+  for (const InputInfo& input : entry.inputs) {
+    if (input.type == ValueType::Boolean)
+      lua_pushboolean(lua_, static_cast<const uint8_t*>(*column)[row]);
+    else if (input.type == ValueType::Integer)
+      lua_pushinteger(lua_, static_cast<const int64_t*>(*column)[row]);
+    else if (input.type == ValueType::Number)
+      lua_pushnumber(lua_, static_cast<const double*>(*column)[row]);
+    else {
+      double components[16];
+      for (unsigned i = 0; i < component_count(input.type); ++i)
+        components[i] = static_cast<const double*>(column[i])[row];
+      stdlib::push_lua_vector(lua_, components, component_count(input.type));
+    }
+    column += component_count(input.type);
+  }
+}
+
+FaultCode InterpretState::store_results(const EntryInfo& entry, const Batch& batch, uint64_t row) {
+  void* const* column = batch.outputs;
+  int at = -int(entry.results.size());
+  for (ValueType type : entry.results) {
+    if (type == ValueType::Boolean) {
+      if (!lua_isboolean(lua_, at)) return wrong_result(at);
+      static_cast<uint8_t*>(*column)[row] = uint8_t(lua_toboolean(lua_, at));
+    } else if (type == ValueType::Integer) {
+      if (!lua_isinteger(lua_, at)) return wrong_result(at);
+      static_cast<int64_t*>(*column)[row] = lua_tointeger(lua_, at);
+    } else if (type == ValueType::Number) {
+      if (lua_type(lua_, at) != LUA_TNUMBER) return wrong_result(at);
+      static_cast<double*>(*column)[row] = lua_tonumber(lua_, at);
+    } else {
+      const double* components = stdlib::lua_vector(lua_, at, component_count(type));
+      if (!components) return wrong_result(at);
+      for (unsigned i = 0; i < component_count(type); ++i)
+        static_cast<double*>(column[i])[row] = components[i];
+    }
+    column += component_count(type);
+    ++at;
+  }
+  return FaultCode::None;
+}
+
+/// A result of another type than sema proved: stock Lua went on where the dialect faults (or there is a defect).
+FaultCode InterpretState::wrong_result(int at) {
+  record_->code = lua_type(lua_, at) == LUA_TNUMBER ? FaultCode::IntegerRange
+                  : lua_isnil(lua_, at)             ? FaultCode::Index
+                                                    : FaultCode::Error;
+  std::snprintf(record_->message, sizeof record_->message, "a result is a %s value", luaL_typename(lua_, at));
+  return record_->code;
+}
+
+void InterpretState::store_zeros(const EntryInfo& entry, const Batch& batch, uint64_t row) {
+  void* const* column = batch.outputs;
+  for (ValueType type : entry.results)
+    for (unsigned i = 0; i < component_count(type); ++i, ++column) {
+      if (type == ValueType::Boolean)
+        static_cast<uint8_t*>(*column)[row] = 0;
+      else
+        static_cast<uint64_t*>(*column)[row] = 0; // integers and doubles alike
+    }
+}
+
+} // namespace moonshade

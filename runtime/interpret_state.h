@@ -1,0 +1,64 @@
+// One sandboxed Lua state that holds one loaded shader.
+#pragma once
+
+#include "runtime/shader.h"
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+struct lua_State;
+
+namespace moonshade {
+
+/// What a Lua state is made from; shared by the states of one shader, never changed.
+struct InterpretSource {
+  std::string name;   ///< the file's, for messages
+  std::string text;   ///< as written, without a first line that Lua's loader of files skips
+  std::string loaded; ///< what Lua is given: the text, with counted steps where they are to be counted
+  ShaderInfo info;
+  std::map<std::string, Constant> parameters; ///< overrides, checked
+  bool count_steps = true;
+  uint64_t step_limit = 0;
+};
+
+/// How one call ended.
+struct InterpretFault {
+  FaultCode code = FaultCode::None;
+  uint32_t line = 0;
+  std::string message;
+};
+
+class InterpretState {
+public:
+  ~InterpretState();
+  InterpretState(const InterpretState&) = delete;
+  InterpretState& operator=(const InterpretState&) = delete;
+
+  /// A state in which the top level has run; null with the reason in `error` where that failed.
+  static std::unique_ptr<InterpretState> open(const InterpretSource& source, std::string& error);
+
+  /// Calls an entry for point `row` of the batch and stores its results.
+  FaultCode call(size_t entry, const Batch& batch, uint64_t row);
+  /// Of the last call that faulted.
+  InterpretFault last_fault() const;
+
+  struct Record;
+
+private:
+  explicit InterpretState(const InterpretSource& source);
+  bool load(std::string& error);
+  void push_inputs(const EntryInfo& entry, const Batch& batch, uint64_t row);
+  FaultCode store_results(const EntryInfo& entry, const Batch& batch, uint64_t row);
+  FaultCode wrong_result(int at);
+  void store_zeros(const EntryInfo& entry, const Batch& batch, uint64_t row);
+  void start_counting();
+
+  const InterpretSource& source_;
+  std::unique_ptr<Record> record_; // at a fixed address: the Lua state points to it
+  lua_State* lua_ = nullptr;
+};
+
+} // namespace moonshade

@@ -1,0 +1,22 @@
+# Every .lua file is a test: lang_test runs it, with --refused those of the folder refused/.
+import os
+
+import lit.formats
+import lit.Test
+import lit.util
+
+
+class LangTest(lit.formats.FileBasedTest):
+    def execute(self, test, lit_config):
+        path = test.getSourcePath()
+        refused = ["--refused"] if os.path.basename(os.path.dirname(path)) == "refused" else []
+        command = [os.path.join(lit_config.params["bin"], "lang_test"), *refused, path]
+        out, err, status = lit.util.executeCommand(command, timeout=300)
+        return (lit.Test.PASS, "") if status == 0 else (lit.Test.FAIL, out + err)
+
+
+config.name = "lang"
+config.suffixes = [".lua"]
+config.test_format = LangTest()
+config.test_source_root = os.path.dirname(__file__)
+config.test_exec_root = lit_config.params["out"]

@@ -1,0 +1,62 @@
+// Reading and checking one file, and printing what the checks found.
+#include "tools/shaderc/check.h"
+
+#include "tools/support/files.h"
+
+#include <nlohmann/json.hpp>
+
+#include <chrono>
+#include <cstdio>
+#include <iostream>
+#include <sstream>
+
+namespace moonshade::shaderc {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+void report_unreadable(const std::string& path, const std::string& error, Reporter& reporter) {
+  SourceSet sources;
+  Diagnostics diagnostics;
+  const FileId file = sources.add(path, "");
+  diagnostics.report(DiagnosticCode::CannotReadFile, Span{file, 0, 0}, {path, error});
+  reporter.add(diagnostics, sources);
+}
+
+} // namespace
+
+void Reporter::add(const Diagnostics& diagnostics, const SourceSet& sources) {
+  if (diagnostics.empty()) return;
+  if (options_.diagnostics == DiagnosticFormat::Text)
+    return print_text(diagnostics, sources, std::cerr, options_.colour);
+  std::ostringstream text;
+  print_json(diagnostics, sources, text);
+  json_.push_back(text.str());
+}
+
+void Reporter::finish() {
+  if (json_.empty()) return;
+  nlohmann::ordered_json all = nlohmann::ordered_json::array();
+  for (const std::string& text : json_)
+    for (auto& diagnostic : nlohmann::ordered_json::parse(text))
+      all.push_back(std::move(diagnostic));
+  std::cerr << all.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) << "\n";
+  json_.clear();
+}
+
+std::unique_ptr<CheckedShader> check_file(const std::string& path, const Options& options, Reporter& reporter) {
+  tools::FileText file = tools::read_file(path);
+  if (!file.error.empty()) {
+    report_unreadable(path, file.error, reporter);
+    return nullptr;
+  }
+  const auto start = Clock::now();
+  auto shader = std::make_unique<CheckedShader>(path, std::move(file.text), options.compile.entries);
+  const std::chrono::duration<double, std::milli> time = Clock::now() - start;
+  reporter.add(shader->diagnostics(), shader->sources());
+  if (options.time_report) std::fprintf(stderr, "%s: check %.3f ms\n", path.c_str(), time.count());
+  return shader;
+}
+
+} // namespace moonshade::shaderc

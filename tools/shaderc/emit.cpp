@@ -1,0 +1,22 @@
+// --emit: one stage of the compiler as text or object file.
+#include "tools/shaderc/actions.h"
+#include "tools/support/exit_status.h"
+#include "tools/support/files.h"
+
+#include <iostream>
+
+namespace moonshade::shaderc {
+
+int emit_stage(const CheckedShader& shader, const Options& options) {
+  if (!shader.ok() && *options.emit != Stage::Ast) return tools::kInputAtFault;
+  const Emission emission = emit(shader, *options.emit, options.compile);
+  if (!emission.error.empty()) return call_error(emission.error);
+  const std::string output = options.output.empty() ? "-" : options.output;
+  if (const std::string error = tools::write_file(output, emission.bytes); !error.empty()) {
+    std::cerr << "shaderc: error: cannot write '" << output << "': " << error << "\n";
+    return tools::kMachineAtFault;
+  }
+  return shader.ok() ? tools::kDone : tools::kInputAtFault;
+}
+
+} // namespace moonshade::shaderc

@@ -1,0 +1,73 @@
+// shaderc: checks shaders, shows what the compiler makes of them, and evaluates them at points.
+#include "tools/shaderc/actions.h"
+#include "tools/shaderc/check.h"
+#include "tools/shaderc/describe.h"
+#include "tools/shaderc/options.h"
+#include "tools/support/exit_status.h"
+#include "tools/support/interrupt.h"
+
+#include <exception>
+#include <iostream>
+
+namespace {
+
+using namespace moonshade;
+using namespace moonshade::shaderc;
+
+/// The default action and --describe, for any number of files.
+int check_files(const Options& options, Reporter& reporter) {
+  int status = tools::kDone;
+  std::vector<std::string> descriptions;
+  for (const std::string& file : options.files) {
+    const auto shader = check_file(file, options, reporter);
+    if (!shader || !shader->ok())
+      status = tools::kInputAtFault;
+    else if (options.describe)
+      descriptions.push_back(describe(file, shader->info()));
+  }
+  if (!options.describe || status != tools::kDone) return status;
+  if (descriptions.size() == 1) {
+    std::cout << descriptions[0] << "\n";
+    return status;
+  }
+  std::cout << "[";
+  for (size_t i = 0; i < descriptions.size(); ++i)
+    std::cout << (i == 0 ? "\n" : ",\n") << descriptions[i];
+  std::cout << "\n]\n";
+  return status;
+}
+
+int work(const Options& options) {
+  Reporter reporter(options);
+  int status = tools::kDone;
+  if (!options.emit && !options.run) {
+    status = check_files(options, reporter);
+  } else {
+    const auto shader = check_file(options.files[0], options, reporter);
+    reporter.finish(); // before anything that the run has to say
+    if (!shader) return tools::kInputAtFault;
+    if (options.emit)
+      status = emit_stage(*shader, options);
+    else
+      status = shader->ok() ? run_shader(*shader, options) : int(tools::kInputAtFault);
+  }
+  reporter.finish();
+  return status;
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+  tools::exit_on_interrupt();
+  try {
+    const ParsedOptions parsed = parse_options(argc, argv);
+    if (!parsed.options) return parsed.exit_status;
+    const int status = work(*parsed.options);
+    std::cout.flush();
+    if (std::cout) return status;
+    std::cerr << "shaderc: error: cannot write to standard output\n";
+  } catch (const std::exception& error) {
+    std::cerr << "shaderc: internal error: " << error.what() << "\n";
+  }
+  return tools::kMachineAtFault;
+}

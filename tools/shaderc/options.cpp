@@ -1,0 +1,224 @@
+// The command line of shaderc: docs/tools.md is its contract.
+#include "tools/shaderc/options.h"
+
+#include "tools/support/exit_status.h"
+
+#include <CLI/CLI.hpp>
+
+#include <cctype>
+#include <cstdlib>
+#include <iostream>
+#include <unistd.h>
+
+namespace moonshade::shaderc {
+
+namespace {
+
+using namespace tools;
+
+constexpr const char* kExamples = R"(Examples:
+  shaderc copper.lua                                    check it
+  shaderc --emit=asm --width=16 -o copper.s copper.lua  look at the code
+  shaderc --describe copper.lua                         entries and parameters as JSON
+  shaderc --run --entry=height --input p=1,2,3 -D scale=2 copper.lua
+  shaderc --run --entry=color --points=points.csv copper.lua
+)";
+
+/// Options as they stand on the command line, before they are judged.
+struct Raw {
+  std::string emit, width = "auto", precision = "f32", diagnostics = "text", optimization = "2";
+  std::string cache_dir;
+  bool remarks = false, no_cache = false, bake = false;
+  std::vector<std::string> module_path;
+};
+
+void add_output_options(CLI::App& app, Options& options, Raw& raw) {
+  const char* group = "What to do (default: check)";
+  app.add_option("--emit", raw.emit, "Write that stage")
+      ->type_name("ast|ir|llvm|asm|obj|header")
+      ->check(CLI::IsMember({"ast", "ir", "llvm", "asm", "obj", "header"}))
+      ->group(group);
+  app.add_option("-o", options.output, "File for --emit; - = standard output")->type_name("FILE")->group(group);
+  app.add_flag("--describe", options.describe, "Print entries, parameters, modules and images as JSON")->group(group);
+  app.add_flag("--run", options.run, "Evaluate one entry point and print its results")->group(group);
+}
+
+void add_run_options(CLI::App& app, Options& options) {
+  const char* group = "With --run";
+  app.add_option("--input", options.inputs, "An input, such as p=1,2,3 (repeatable)")
+      ->type_name("NAME=VALUE")
+      ->allow_extra_args(false)
+      ->group(group);
+  app.add_option("--points", options.points,
+                 "A CSV of points; its header names the inputs' components: p.x,p.y,p.z,time")
+      ->type_name("FILE.csv")
+      ->group(group);
+  app.add_flag("--interpret", options.interpret, "Run by stock Lua 5.4, in double, instead of compiling")->group(group);
+  app.add_option("-D", options.definitions, "Override a parameter: -D scale=2, -D tint=0.2,0.4,1 (repeatable)")
+      ->type_name("NAME=VALUE")
+      ->allow_extra_args(false)
+      ->group(group);
+}
+
+void add_compile_options(CLI::App& app, Options& options, Raw& raw) {
+  const char* group = "Compilation";
+  app.add_option("--entry", options.compile.entries, "Only this entry point (repeatable)")
+      ->type_name("NAME")
+      ->allow_extra_args(false)
+      ->group(group);
+  app.add_option("--precision", raw.precision, "Of numbers (default f32)")
+      ->type_name("f32|f64")
+      ->check(CLI::IsMember({"f32", "f64"}))
+      ->group(group);
+  app.add_option("--width", raw.width, "Lanes (default auto: the best for the target)")
+      ->type_name("auto|1|4|8|16|32")
+      ->check(CLI::IsMember({"auto", "1", "4", "8", "16", "32"}))
+      ->group(group);
+  app.add_option("--cpu", options.compile.cpu, "As clang's -march (default native)")
+      ->type_name("native|NAME")
+      ->group(group);
+  app.add_option("--target", options.compile.target, "Target triple (default this machine's)")
+      ->type_name("TRIPLE")
+      ->group(group);
+  app.add_option("-O", raw.optimization, "Level of optimisation, -O0 to -O3 (default -O2)")
+      ->type_name("0|1|2|3")
+      ->check(CLI::IsMember({"0", "1", "2", "3"}))
+      ->group(group);
+}
+
+void add_report_options(CLI::App& app, Options& options, Raw& raw) {
+  const char* group = "Reports";
+  app.add_option("--diagnostics", raw.diagnostics, "Form of the diagnostics on standard error")
+      ->type_name("text|json|sarif")
+      ->check(CLI::IsMember({"text", "json", "sarif"}))
+      ->group(group);
+  app.add_flag("--time-report", options.time_report, "Print the time of each stage on standard error")->group(group);
+}
+
+/// What the contract names and is not built yet.
+void add_unavailable_options(CLI::App& app, Raw& raw) {
+  const char* group = "Not available yet";
+  app.add_option("-I", raw.module_path, "Module path for require")
+      ->type_name("DIR")
+      ->allow_extra_args(false)
+      ->group(group);
+  app.add_flag("--remarks", raw.remarks, "What the optimiser decided")->group(group);
+  app.add_option("--cache-dir", raw.cache_dir, "Folder of the object cache")->type_name("DIR")->group(group);
+  app.add_flag("--no-cache", raw.no_cache, "Do without the object cache")->group(group);
+  app.add_flag("--bake", raw.bake, "Compile parameters as constants")->group(group);
+}
+
+/// The first option of the call that is not built yet; empty where all are.
+std::string unavailable(const CLI::App& app, const Raw& raw) {
+  for (const char* name : {"-I", "--remarks", "--cache-dir", "--no-cache", "--bake"})
+    if (app.count(name) != 0) return name;
+  if (raw.diagnostics == "sarif") return "--diagnostics=sarif";
+  if (raw.emit == "header") return "--emit=header";
+  return "";
+}
+
+std::optional<Stage> stage_of(const std::string& name) {
+  if (name == "ast") return Stage::Ast;
+  if (name == "ir") return Stage::Ir;
+  if (name == "llvm") return Stage::Llvm;
+  if (name == "asm") return Stage::Assembly;
+  if (name == "obj") return Stage::Object;
+  return std::nullopt;
+}
+
+/// `--input p=1,2,3 time=0`: further inputs behind the first arrive among the files.
+void move_inputs_from_files(Options& options) {
+  if (options.inputs.empty()) return;
+  std::erase_if(options.files, [&](const std::string& file) {
+    if (!split_assignment(file) || file.ends_with(".lua")) return false;
+    options.inputs.push_back(file);
+    return true;
+  });
+}
+
+/// What the options say together; empty where they fit.
+std::string contradiction(const Options& options) {
+  const int actions = int(options.emit.has_value()) + int(options.describe) + int(options.run);
+  if (actions > 1) return "--emit, --describe and --run exclude each other";
+  if (options.files.empty()) return "no file is given";
+  if (options.files.size() > 1 && (options.emit || options.run)) return "--emit and --run take one file";
+  if (!options.emit && !options.output.empty()) return "-o stands with --emit";
+  if (!options.run && !options.inputs.empty()) return "--input stands with --run";
+  if (!options.run && !options.points.empty()) return "--points stands with --run";
+  if (!options.run && options.interpret) return "--interpret stands with --run";
+  if (options.run && options.compile.entries.size() > 1) return "--run takes one --entry";
+  if (!options.emit && (options.compile.cpu != "native" || !options.compile.target.empty()))
+    return "--cpu and --target stand with --emit: code for other machines cannot run here";
+  for (const std::string& definition : options.definitions)
+    if (!split_assignment(definition)) return "-D takes NAME=VALUE, not '" + definition + "'";
+  for (const std::string& input : options.inputs)
+    if (!split_assignment(input)) return "--input takes NAME=VALUE, not '" + input + "'";
+  if (options.emit == Stage::Object && (options.output.empty() || options.output == "-") && isatty(STDOUT_FILENO))
+    return "--emit=obj needs -o FILE: an object file is nothing for a terminal";
+  return "";
+}
+
+bool colour_wanted() {
+  const char* no_colour = std::getenv("NO_COLOR");
+  return isatty(STDERR_FILENO) && (!no_colour || !*no_colour);
+}
+
+void settle(Options& options, const Raw& raw) {
+  options.emit = stage_of(raw.emit);
+  options.compile.precision = raw.precision == "f64" ? Precision::F64 : Precision::F32;
+  options.compile.width = raw.width == "auto" ? 0 : unsigned(std::stoul(raw.width));
+  options.compile.optimization = std::stoi(raw.optimization);
+  options.diagnostics = raw.diagnostics == "json" ? DiagnosticFormat::Json : DiagnosticFormat::Text;
+  options.colour = colour_wanted();
+  options.compile.color_diagnostics = options.colour;
+  move_inputs_from_files(options);
+}
+
+} // namespace
+
+int call_error(const std::string& message) {
+  std::cerr << "shaderc: error: " << message << "\n";
+  return kCallAtFault;
+}
+
+std::optional<Assignment> split_assignment(std::string_view text) {
+  const size_t equals = text.find('=');
+  if (equals == std::string_view::npos || equals == 0) return std::nullopt;
+  for (char c : text.substr(0, equals))
+    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '_') return std::nullopt;
+  return Assignment{text.substr(0, equals), text.substr(equals + 1)};
+}
+
+ParsedOptions parse_options(int argc, char** argv) {
+  CLI::App app("Compiles and checks Moonshade shaders.", "shaderc");
+  Options options;
+  Raw raw;
+  app.set_help_flag("-h,--help", "Print this help")->group("Reports");
+  app.set_version_flag("--version", version(), "Print the version")->group("Reports");
+  app.add_option("FILE", options.files, "Shaders")->type_name("FILE.lua ...");
+  add_output_options(app, options, raw);
+  add_run_options(app, options);
+  add_compile_options(app, options, raw);
+  add_report_options(app, options, raw);
+  add_unavailable_options(app, raw);
+  app.footer(kExamples);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    std::cout << app.help();
+    return {std::nullopt, kDone};
+  } catch (const CLI::CallForVersion& call) {
+    std::cout << call.what() << "\n";
+    return {std::nullopt, kDone};
+  } catch (const CLI::ParseError& error) {
+    std::cerr << "shaderc: error: " << error.what() << "\nTry 'shaderc --help'.\n";
+    return {std::nullopt, kCallAtFault};
+  }
+  if (const std::string name = unavailable(app, raw); !name.empty())
+    return {std::nullopt, call_error(name + " is not available yet")};
+  settle(options, raw);
+  if (const std::string problem = contradiction(options); !problem.empty()) return {std::nullopt, call_error(problem)};
+  return {std::move(options), kDone};
+}
+
+} // namespace moonshade::shaderc

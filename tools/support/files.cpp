@@ -1,0 +1,85 @@
+// Files read and written whole; on POSIX calls, because a rename must follow a complete and checked write.
+#include "tools/support/files.h"
+
+#include "tools/support/interrupt.h"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace moonshade::tools {
+
+namespace {
+
+std::string system_error() { return std::strerror(errno); }
+
+bool write_all(int descriptor, const std::string& bytes) {
+  size_t done = 0;
+  while (done < bytes.size()) {
+    const ssize_t count = ::write(descriptor, bytes.data() + done, bytes.size() - done);
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) return false;
+    done += size_t(count);
+  }
+  return true;
+}
+
+/// The mode that a plain open() would have given the file: mkstemp makes it readable by its owner alone.
+mode_t usual_mode() {
+  const mode_t mask = umask(0);
+  umask(mask);
+  return mode_t(0666) & ~mask;
+}
+
+bool is_special(const std::string& path) {
+  struct stat status = {};
+  return stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode);
+}
+
+std::string write_directly(const std::string& path, const std::string& bytes) {
+  const int descriptor = open(path.c_str(), O_WRONLY);
+  if (descriptor < 0) return system_error();
+  const bool written = write_all(descriptor, bytes);
+  const std::string error = written ? "" : system_error();
+  close(descriptor);
+  return error;
+}
+
+} // namespace
+
+FileText read_file(const std::string& path) {
+  const int descriptor = path == "-" ? dup(STDIN_FILENO) : open(path.c_str(), O_RDONLY);
+  if (descriptor < 0) return {"", system_error()};
+  FileText file;
+  char buffer[1 << 16];
+  for (;;) {
+    const ssize_t count = ::read(descriptor, buffer, sizeof buffer);
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) file = {"", system_error()};
+    if (count <= 0) break;
+    file.text.append(buffer, size_t(count));
+  }
+  close(descriptor);
+  return file;
+}
+
+std::string write_file(const std::string& path, const std::string& bytes) {
+  if (path == "-") return write_all(STDOUT_FILENO, bytes) ? "" : system_error();
+  if (is_special(path)) return write_directly(path, bytes); // /dev/null, a pipe: nothing to rename
+  std::string temporary = path + ".XXXXXX";
+  const int descriptor = mkstemp(temporary.data());
+  if (descriptor < 0) return system_error();
+  set_file_to_delete(temporary.c_str());
+  const bool written = write_all(descriptor, bytes) && fchmod(descriptor, usual_mode()) == 0;
+  std::string error = written ? "" : system_error();
+  if (close(descriptor) != 0 && error.empty()) error = system_error();
+  if (error.empty() && rename(temporary.c_str(), path.c_str()) != 0) error = system_error();
+  if (!error.empty()) unlink(temporary.c_str());
+  set_file_to_delete(nullptr);
+  return error;
+}
+
+} // namespace moonshade::tools

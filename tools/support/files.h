@@ -1,0 +1,19 @@
+// Files read and written whole.
+#pragma once
+
+#include <string>
+
+namespace moonshade::tools {
+
+struct FileText {
+  std::string text;
+  std::string error; ///< why it cannot be read; empty where it can
+};
+/// Reads the file; "-" is standard input.
+FileText read_file(const std::string& path);
+
+/// Writes to a temporary file beside `path` and renames it: the file is there whole or not at all. "-" is standard
+/// output. Gives the error, or an empty text.
+std::string write_file(const std::string& path, const std::string& bytes);
+
+} // namespace moonshade::tools
