@@ -18,15 +18,12 @@ namespace moonshade::syntax {
 
 /// Bytes of a source text: 16 MiB.
 inline constexpr size_t kMaxSourceBytes = size_t{16} << 20;
-/// Blocks, functions, brackets, unary and right-associative operators inside each other: what the parser recurses on.
-inline constexpr unsigned kMaxNesting = 200;
-/// Levels of the whole tree: nesting, and chains like a + b + c or a.b.c, each link of which is a level. A recursive
-/// visitor of two frames of 500 bytes a level needs 1 MB for it.
+/// Statements and expressions inside each other, as the parser recurses: a bracket, a block, a unary or a
+/// right-associative operator counts one; a function that stands in a statement of its own counts two.
+inline constexpr unsigned kMaxNesting = 400;
+/// Levels of the whole tree: nesting (a block and its statement are two), and chains like a + b + c or a.b.c, each link
+/// of which is a level. A recursive visitor of two frames of 500 bytes a level needs 1 MB for it.
 inline constexpr unsigned kMaxTreeHeight = 1000;
-/// Variables visible at one place, in all enclosing functions together.
-inline constexpr unsigned kMaxVisibleLocals = 20'000;
-/// Bytes of one string or one name.
-inline constexpr size_t kMaxStringBytes = size_t{1} << 20;
 
 /// Parses a file of the set. Never null: what could not be parsed is an error node, and `diagnostics.has_errors()`
 /// tells. The tree lives in `arena` and refers to the text in `sources`.
