@@ -12,12 +12,18 @@ enum class ValueType : uint8_t { Boolean, Integer, Number, Vec2, Vec3, Vec4, Mat
 /// How many scalars a value of this type is made of: 1, 2, 3, 4, 9 or 16.
 constexpr unsigned component_count(ValueType type) {
   switch (type) {
-  case ValueType::Vec2: return 2;
-  case ValueType::Vec3: return 3;
-  case ValueType::Vec4: return 4;
-  case ValueType::Mat3: return 9;
-  case ValueType::Mat4: return 16;
-  default: return 1;
+  case ValueType::Vec2:
+    return 2;
+  case ValueType::Vec3:
+    return 3;
+  case ValueType::Vec4:
+    return 4;
+  case ValueType::Mat3:
+    return 9;
+  case ValueType::Mat4:
+    return 16;
+  default:
+    return 1;
   }
 }
 
@@ -35,14 +41,22 @@ constexpr ValueType vector_type(unsigned size) {
 /// The type's name as the language's manual and messages write it.
 constexpr std::string_view name_of(ValueType type) {
   switch (type) {
-  case ValueType::Boolean: return "boolean";
-  case ValueType::Integer: return "integer";
-  case ValueType::Number: return "number";
-  case ValueType::Vec2: return "vec2";
-  case ValueType::Vec3: return "vec3";
-  case ValueType::Vec4: return "vec4";
-  case ValueType::Mat3: return "mat3";
-  case ValueType::Mat4: return "mat4";
+  case ValueType::Boolean:
+    return "boolean";
+  case ValueType::Integer:
+    return "integer";
+  case ValueType::Number:
+    return "number";
+  case ValueType::Vec2:
+    return "vec2";
+  case ValueType::Vec3:
+    return "vec3";
+  case ValueType::Vec4:
+    return "vec4";
+  case ValueType::Mat3:
+    return "mat3";
+  case ValueType::Mat4:
+    return "mat4";
   }
   return "?";
 }

@@ -1,0 +1,98 @@
+// The exports of the library for one domain (library.h says what they look like): compiled to bitcode once for each
+// lane type, with MS_SCALAR (float, double), MS_PRECISION (f32, f64) and MS_WIDTH given.
+//
+// Exports are always inlined into compiled shaders; what they call is inlined into them, but for internal functions
+// that are rarely run.
+#include "stdlib/signature.h"
+
+namespace moonshade::stdlib {
+
+using Lane = Wide<MS_SCALAR, MS_WIDTH>;
+
+// Values in memory: as lanes side by side, booleans as bytes.
+template <class T> struct Memory {
+  MS_INLINE static T load(const void* from) { return *static_cast<const T*>(from); }
+  MS_INLINE static void store(void* to, const T& value) { *static_cast<T*>(to) = value; }
+};
+template <class I, int W> struct Memory<LaneMask<I, W>> {
+  using Bytes = Wide<uint8_t, W>;
+  MS_INLINE static LaneMask<I, W> load(const void* from) {
+    if constexpr (W == 1)
+      return {*static_cast<const Bytes*>(from) != 0};
+    else
+      return {__builtin_convertvector(*static_cast<const Bytes*>(from) != Bytes(uint8_t(0)), Wide<I, W>)};
+  }
+  MS_INLINE static void store(void* to, const LaneMask<I, W>& value) {
+    if constexpr (W == 1)
+      *static_cast<Bytes*>(to) = value.bits;
+    else
+      *static_cast<Bytes*>(to) = __builtin_convertvector(value.bits & Wide<I, W>(I(1)), Bytes);
+  }
+};
+
+MS_INLINE void store_results(const auto& value, void* first) {
+  Memory<std::remove_cvref_t<decltype(value)>>::store(first, value);
+}
+template <class A, class B> MS_INLINE void store_results(const Results<A, B>& value, void* first, void* second) {
+  Memory<A>::store(first, value.first);
+  Memory<B>::store(second, value.second);
+}
+
+/// Loads a row's arguments, calls its function.
+template <class Row, class... A> struct Caller {
+  template <class... P> MS_INLINE static auto call(P... pointers) { return Row::call(Memory<A>::load(pointers)...); }
+};
+template <class Row> struct CallerOf {
+  template <class... A> using With = Caller<Row, A...>;
+  using Type = typename Signature<typename Row::Type>::template Parameters<With>;
+};
+
+} // namespace moonshade::stdlib
+
+using namespace moonshade::stdlib;
+
+// From a row's type, Result(Parameter...), the preprocessor takes the count of parameters and of results: the macro
+// named after the result receives the parameters as its arguments.
+#define COUNT(...) COUNT_(__VA_ARGS__ __VA_OPT__(, ) 6, 5, 4, 3, 2, 1, 0)
+#define COUNT_(a, b, c, d, e, f, n, ...) n
+#define PARAMETERS_Number(...) COUNT(__VA_ARGS__)
+#define PARAMETERS_Integer(...) COUNT(__VA_ARGS__)
+#define PARAMETERS_Boolean(...) COUNT(__VA_ARGS__)
+#define PARAMETERS_Vec2(...) COUNT(__VA_ARGS__)
+#define PARAMETERS_Vec3(...) COUNT(__VA_ARGS__)
+#define PARAMETERS_Vec4(...) COUNT(__VA_ARGS__)
+#define PARAMETERS_IntegerIfAny(...) COUNT(__VA_ARGS__)
+#define RESULTS_Number(...) 1
+#define RESULTS_Integer(...) 1
+#define RESULTS_Boolean(...) 1
+#define RESULTS_Vec2(...) 1
+#define RESULTS_Vec3(...) 1
+#define RESULTS_Vec4(...) 1
+#define RESULTS_IntegerIfAny(...) 2
+
+#define JOIN(a, b) JOIN_(a, b)
+#define JOIN_(a, b) a##b
+#define DECLARE_RESULTS_1 void* r0
+#define DECLARE_RESULTS_2 void *r0, void *r1
+#define DECLARE_PARAMETERS_1 const void* a0
+#define DECLARE_PARAMETERS_2 const void *a0, const void *a1
+#define DECLARE_PARAMETERS_3 const void *a0, const void *a1, const void *a2
+#define DECLARE_PARAMETERS_4 const void *a0, const void *a1, const void *a2, const void *a3
+#define PASS_RESULTS_1 r0
+#define PASS_RESULTS_2 r0, r1
+#define PASS_PARAMETERS_1 a0
+#define PASS_PARAMETERS_2 a0, a1
+#define PASS_PARAMETERS_3 a0, a1, a2
+#define PASS_PARAMETERS_4 a0, a1, a2, a3
+#define EXPORT_NAME__(symbol, precision, width) ms_##symbol##_##precision##_w##width
+#define EXPORT_NAME_(symbol, precision, width) EXPORT_NAME__(symbol, precision, width)
+#define EXPORT_NAME(symbol) EXPORT_NAME_(symbol, MS_PRECISION, MS_WIDTH)
+
+#define FUNCTION(name, symbol, function, type, defaults, traits, parameters, doc)                                      \
+  MS_ROW(symbol, function, type)                                                                                       \
+  extern "C" [[gnu::always_inline]] void EXPORT_NAME(symbol)(JOIN(DECLARE_RESULTS_, RESULTS_##type),                   \
+                                                             JOIN(DECLARE_PARAMETERS_, PARAMETERS_##type)) {           \
+    store_results(CallerOf<Row_##symbol::Of<Lane>>::Type::call(JOIN(PASS_PARAMETERS_, PARAMETERS_##type)),             \
+                  JOIN(PASS_RESULTS_, RESULTS_##type));                                                                \
+  }
+#include "stdlib/table.def"

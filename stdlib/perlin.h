@@ -1,0 +1,106 @@
+// Improved Perlin noise (Ken Perlin, "Improving Noise", SIGGRAPH 2002), after the reference implementation, with its
+// published permutation: in double, the same bits.
+//
+// A lattice point's gradient is found by chained look-ups in the permutation; in fewer than three dimensions the
+// coordinates left out are 0, as the reference is called. Defined everywhere: beyond 2^22 (float) or 2^50 (double) the
+// cell is a nearby one. NaN and infinity give NaN. Period 256 in every direction; 0 at the integers.
+#pragma once
+
+#include "stdlib/hash.h"
+#include "stdlib/numbers.h"
+#include "stdlib/vec.h"
+
+namespace moonshade::stdlib {
+
+/// The permutation, and again its beginning, so that an entry and the one after it are read together.
+struct PerlinTable {
+  uint8_t entry[260];
+};
+inline constexpr uint8_t kPerlinPermutation[256] = {
+    151, 160, 137, 91,  90,  15,  131, 13,  201, 95,  96,  53,  194, 233, 7,   225, 140, 36,  103, 30,  69,  142,
+    8,   99,  37,  240, 21,  10,  23,  190, 6,   148, 247, 120, 234, 75,  0,   26,  197, 62,  94,  252, 219, 203,
+    117, 35,  11,  32,  57,  177, 33,  88,  237, 149, 56,  87,  174, 20,  125, 136, 171, 168, 68,  175, 74,  165,
+    71,  134, 139, 48,  27,  166, 77,  146, 158, 231, 83,  111, 229, 122, 60,  211, 133, 230, 220, 105, 92,  41,
+    55,  46,  245, 40,  244, 102, 143, 54,  65,  25,  63,  161, 1,   216, 80,  73,  209, 76,  132, 187, 208, 89,
+    18,  169, 200, 196, 135, 130, 116, 188, 159, 86,  164, 100, 109, 198, 173, 186, 3,   64,  52,  217, 226, 250,
+    124, 123, 5,   202, 38,  147, 118, 126, 255, 82,  85,  212, 207, 206, 59,  227, 47,  16,  58,  17,  182, 189,
+    28,  42,  223, 183, 170, 213, 119, 248, 152, 2,   44,  154, 163, 70,  221, 153, 101, 155, 167, 43,  172, 9,
+    129, 22,  39,  253, 19,  98,  108, 110, 79,  113, 224, 232, 178, 185, 112, 104, 218, 246, 97,  228, 251, 34,
+    242, 193, 238, 210, 144, 12,  191, 179, 162, 241, 81,  51,  145, 235, 249, 14,  239, 107, 49,  192, 214, 31,
+    181, 199, 106, 157, 184, 84,  204, 176, 115, 121, 50,  45,  127, 4,   150, 254, 138, 236, 205, 93,  222, 114,
+    67,  29,  24,  72,  243, 141, 128, 195, 78,  66,  215, 61,  156, 180};
+static constexpr PerlinTable kPerlinTable = [] {
+  PerlinTable table = {};
+  for (int i = 0; i < 260; ++i)
+    table.entry[i] = kPerlinPermutation[i & 255];
+  return table;
+}();
+
+/// permutation[i mod 256] in the lowest byte, the following entry in the next.
+template <class U> MS_INLINE U permuted_pair(U i) {
+  i &= U(255u);
+  auto pair = [](uint32_t at) __attribute__((always_inline)) {
+    return uint32_t(kPerlinTable.entry[at]) | uint32_t(kPerlinTable.entry[at + 1]) << 8;
+  };
+  if constexpr (width_of<U> == 1) {
+    return pair(i);
+  } else {
+    U result;
+#pragma clang loop unroll(full)
+    for (int lane = 0; lane < width_of<U>; ++lane)
+      result[lane] = pair(i[lane]);
+    return result;
+  }
+}
+
+/// The reference's grad: one of twelve edges (four of them twice) by the lower four bits of the hash.
+template <class L> MS_INLINE L perlin_ramp(UInt32<L> hash, L x, L y, L z) {
+  using U = UInt32<L>;
+  U h = hash & U(15u);
+  L u = select(to_mask<L>(h < U(8u)), x, y);
+  L v = select(to_mask<L>(h < U(4u)), y, select(to_mask<L>((h | U(2u)) == U(14u)), x, z));
+  return flip_sign(u, sign_from<L>(hash << U(31u))) + flip_sign(v, sign_from<L>((hash & U(2u)) << U(30u)));
+}
+
+template <class L> MS_INLINE L perlin_lerp(L t, L a, L b) { return madd(t, b - a, a); }
+
+template <class L> MS_INLINE L perlin(Vec<3, L> p) {
+  using U = UInt32<L>;
+  L i = floor(p[0]), j = floor(p[1]), k = floor(p[2]);
+  L x = p[0] - i, y = p[1] - j, z = p[2] - k, one = constant<L>(1);
+  L u = fade(x), v = fade(y), w = fade(z), x1 = x - one, y1 = y - one, z1 = z - one;
+  U cx = lattice(i), cy = lattice(j), cz = lattice(k), byte = U(8u), low = U(255u);
+  U ab = permuted_pair(cx);
+  U aa_ab = permuted_pair((ab & low) + cy), ba_bb = permuted_pair((ab >> byte) + cy);
+  U aa = permuted_pair((aa_ab & low) + cz), aab = permuted_pair((aa_ab >> byte) + cz);
+  U ba = permuted_pair((ba_bb & low) + cz), bab = permuted_pair((ba_bb >> byte) + cz);
+  L near = perlin_lerp(v, perlin_lerp(u, perlin_ramp(aa, x, y, z), perlin_ramp(ba, x1, y, z)),
+                       perlin_lerp(u, perlin_ramp(aab, x, y1, z), perlin_ramp(bab, x1, y1, z)));
+  L far = perlin_lerp(v, perlin_lerp(u, perlin_ramp(aa >> byte, x, y, z1), perlin_ramp(ba >> byte, x1, y, z1)),
+                      perlin_lerp(u, perlin_ramp(aab >> byte, x, y1, z1), perlin_ramp(bab >> byte, x1, y1, z1)));
+  return perlin_lerp(w, near, far);
+}
+
+template <class L> MS_INLINE L perlin(Vec<2, L> p) {
+  using U = UInt32<L>;
+  L i = floor(p[0]), j = floor(p[1]);
+  L x = p[0] - i, y = p[1] - j, one = constant<L>(1), zero = constant<L>(0);
+  L u = fade(x), v = fade(y), x1 = x - one, y1 = y - one;
+  U cx = lattice(i), cy = lattice(j), byte = U(8u), low = U(255u);
+  U ab = permuted_pair(cx);
+  U aa_ab = permuted_pair((ab & low) + cy), ba_bb = permuted_pair((ab >> byte) + cy);
+  U aa = permuted_pair(aa_ab & low), aab = permuted_pair(aa_ab >> byte);
+  U ba = permuted_pair(ba_bb & low), bab = permuted_pair(ba_bb >> byte);
+  return perlin_lerp(v, perlin_lerp(u, perlin_ramp(aa, x, y, zero), perlin_ramp(ba, x1, y, zero)),
+                     perlin_lerp(u, perlin_ramp(aab, x, y1, zero), perlin_ramp(bab, x1, y1, zero)));
+}
+
+template <class L> MS_INLINE L perlin(L p) {
+  using U = UInt32<L>;
+  L i = floor(p), x = p - i, zero = constant<L>(0);
+  U byte = U(8u), low = U(255u), ab = permuted_pair(lattice(i));
+  U aa = permuted_pair(permuted_pair(ab & low) & low), ba = permuted_pair(permuted_pair(ab >> byte) & low);
+  return perlin_lerp(fade(x), perlin_ramp(aa, x, zero, zero), perlin_ramp(ba, x - constant<L>(1), zero, zero));
+}
+
+} // namespace moonshade::stdlib
