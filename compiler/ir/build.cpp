@@ -1,0 +1,174 @@
+// `build`, the module and its functions. See build.h.
+#include "compiler/ir/build.h"
+
+#include "compiler/ir/build_function.h"
+
+#include <algorithm>
+
+namespace moonshade::ir {
+namespace {
+
+/// The function's outside, from which calls are made: known before any body is translated.
+Function declare(const sema::Specialisation& specialisation) {
+  Function function;
+  function.name = specialisation.id == 0 ? "top_level" : specialisation.name;
+  if (specialisation.function != nullptr) function.span = specialisation.function->span;
+  for (size_t i = 0; i < specialisation.parameters.size(); ++i) {
+    if (specialisation.parameters[i].kind != sema::Type::Kind::Value) continue;
+    function.parameters.push_back(specialisation.parameters[i].value);
+    function.parameter_names.emplace_back(specialisation.function->params[i]->name);
+  }
+  function.results = run_time_types(specialisation.results);
+  function.captures = static_cast<uint32_t>(specialisation.captures.size());
+  return function;
+}
+
+void declare_globals(ModuleBuild& shared) {
+  const sema::Program& program = shared.program;
+  shared.parameters.assign(program.info.parameters.size(), kNone);
+  for (const sema::GlobalSlot& slot : program.globals) {
+    const auto id = static_cast<GlobalId>(shared.module.globals.size());
+    if (slot.local != nullptr) shared.slots.emplace(slot.local, id);
+    Global global{.name = slot.name, .type = slot.type};
+    if (slot.parameter != kNone && program.info.parameters[slot.parameter].type == slot.type) {
+      global.parameter = slot.parameter;
+      shared.parameters[slot.parameter] = id;
+    }
+    shared.module.globals.push_back(std::move(global));
+  }
+  for (uint32_t i = 0; i < program.info.parameters.size(); ++i) {
+    const ParameterInfo& parameter = program.info.parameters[i];
+    if (!parameter.type || shared.parameters[i] != kNone) continue;
+    shared.parameters[i] = static_cast<GlobalId>(shared.module.globals.size());
+    shared.module.globals.push_back({.name = parameter.name, .type = *parameter.type, .parameter = i});
+  }
+}
+
+/// An entry whose results the host gets in other types (integers as numbers) is a wrapper that converts them.
+FunctionId entry_function(Module& module, FunctionId callee, const EntryInfo& entry) {
+  // A copy: pushing the wrapper moves the functions.
+  const std::vector<ValueType> results = module.functions[callee].results;
+  if (entry.results == results || entry.results.size() != results.size()) return callee;
+  Function wrapper;
+  wrapper.name = module.functions[callee].name + ".entry";
+  wrapper.span = module.functions[callee].span;
+  wrapper.parameters = module.functions[callee].parameters;
+  wrapper.parameter_names = module.functions[callee].parameter_names;
+  wrapper.results = entry.results;
+  {
+    Builder b(wrapper);
+    b.set_span(wrapper.span);
+    std::vector<ValueId> arguments;
+    for (uint32_t i = 0; i < wrapper.parameters.size(); ++i)
+      arguments.push_back(b.argument(i));
+    const ValueId call = b.call(callee, results, arguments);
+    std::vector<ValueId> converted;
+    for (uint32_t i = 0; i < results.size(); ++i)
+      converted.push_back(b.convert(b.result(call, i, results[i]), entry.results[i]));
+    b.return_values(converted);
+  }
+  module.functions.push_back(std::move(wrapper));
+  return static_cast<FunctionId>(module.functions.size() - 1);
+}
+
+} // namespace
+
+std::vector<ValueType> run_time_types(const std::vector<sema::Type>& types) {
+  std::vector<ValueType> result;
+  for (const sema::Type& type : types)
+    if (type.kind == sema::Type::Kind::Value) result.push_back(type.value);
+  return result;
+}
+
+FunctionBuild::FunctionBuild(ModuleBuild& shared, const sema::Specialisation& specialisation, Function& function)
+    : shared_(shared), specialisation_(specialisation), function_(function), b_(function) {
+  b_.set_span(function.span);
+  for (const syntax::Local* local : specialisation.captures) {
+    const auto found = specialisation.locals.find(local);
+    const ValueType type = found == specialisation.locals.end() ? ValueType::Number : found->second.type.value;
+    variables_.emplace(local, b_.variable(std::string(local->name), type));
+  }
+}
+
+void FunctionBuild::run() {
+  const syntax::Function& source = *specialisation_.function;
+  find_goto_targets(*source.body);
+  // Each call of a shader's function is a step of the point; the top level's own run is none.
+  if (specialisation_.id != 0) b_.step();
+  receive_parameters();
+  statements(*source.body);
+  if (!function_.results.empty() && !b_.terminated()) {
+    // Sema has seen that execution cannot come here (behind error(), say).
+    Values zeros;
+    for (const ValueType type : function_.results)
+      zeros.push_back(b_.zero(type));
+    b_.return_values(zeros);
+  }
+}
+
+void FunctionBuild::receive_parameters() {
+  uint32_t argument = 0;
+  for (size_t i = 0; i < specialisation_.parameters.size(); ++i) {
+    if (specialisation_.parameters[i].kind != sema::Type::Kind::Value) continue;
+    const syntax::Local& local = *specialisation_.function->params[i];
+    const At at(b_, local.span);
+    store_local(local, b_.argument(argument++));
+  }
+}
+
+std::optional<ValueType> FunctionBuild::storage_type(const syntax::Local& local) const {
+  if (const auto slot = shared_.slots.find(&local); slot != shared_.slots.end())
+    return shared_.module.globals[slot->second].type;
+  const auto found = specialisation_.locals.find(&local);
+  if (found == specialisation_.locals.end() || found->second.type.kind != sema::Type::Kind::Value) return {};
+  return found->second.type.value;
+}
+
+VariableId FunctionBuild::variable_of(const syntax::Local& local) {
+  if (const auto found = variables_.find(&local); found != variables_.end()) return found->second;
+  const VariableId variable = b_.variable(std::string(local.name), storage_type(local).value_or(ValueType::Number));
+  variables_.emplace(&local, variable);
+  return variable;
+}
+
+void FunctionBuild::store_local(const syntax::Local& local, ValueId value) {
+  const std::optional<ValueType> type = storage_type(local);
+  if (!type || value == kNone) return;
+  if (const auto slot = shared_.slots.find(&local); slot != shared_.slots.end()) {
+    // A slot that is a parameter is filled by the host.
+    if (shared_.module.globals[slot->second].parameter == kNone) b_.store_global(slot->second, converted(value, *type));
+    return;
+  }
+  b_.store(variable_of(local), converted(value, *type));
+}
+
+const sema::ExpressionFact& FunctionBuild::fact(const syntax::Expr& expr) const {
+  static const sema::ExpressionFact kNothing;
+  const auto found = specialisation_.expressions.find(expr.id);
+  return found == specialisation_.expressions.end() ? kNothing : found->second;
+}
+
+void FunctionBuild::defect(std::string_view what) {
+  b_.fault(b_.boolean(true), FaultCode::Error, "defect of the compiler: " + std::string(what));
+}
+
+Module build(const sema::Program& program, const BuildOptions& options) {
+  Module module;
+  module.step_limit = options.step_limit;
+  ModuleBuild shared{.program = program, .module = module, .slots = {}, .parameters = {}};
+  declare_globals(shared);
+  for (const auto& specialisation : program.specialisations)
+    module.functions.push_back(declare(*specialisation));
+  module.init = 0;
+  for (const auto& specialisation : program.specialisations)
+    FunctionBuild(shared, *specialisation, module.functions[specialisation->id]).run();
+  for (const sema::EntryPoint& entry : program.entries) {
+    FunctionId function = entry.specialisation->id;
+    if (const EntryInfo* described = program.info.find_entry(entry.name))
+      function = entry_function(module, function, *described);
+    module.entries.push_back({entry.name, function});
+  }
+  return module;
+}
+
+} // namespace moonshade::ir

@@ -1,0 +1,514 @@
+// `build`, expressions: values in order of evaluation, calls, and what is evaluated only where Lua does.
+#include "compiler/ir/build_function.h"
+#include "compiler/ir/cost.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace moonshade::ir {
+
+using namespace syntax;
+using sema::CallKind;
+using sema::ExpressionFact;
+using sema::NameKind;
+using sema::OperatorForm;
+
+namespace {
+
+const Expr& without_parens(const Expr& expr) {
+  const Expr* inner = &expr;
+  while (const auto* paren = try_as<ParenExpr>(inner))
+    inner = paren->inner;
+  return *inner;
+}
+
+const BinaryExpr* as_operation(const Expr& expr, BinaryOp op) {
+  const auto* binary = try_as<BinaryExpr>(&without_parens(expr));
+  return binary != nullptr && binary->op == op ? binary : nullptr;
+}
+
+/// The literal 2, for which Lua's `^` multiplies.
+bool is_two(const Expr& expr) {
+  const Expr& inner = without_parens(expr);
+  if (const auto* integer = try_as<IntegerExpr>(&inner)) return integer->value == 2;
+  if (const auto* number = try_as<NumberExpr>(&inner)) return number->value == 2;
+  return false;
+}
+
+bool converts(ValueType from, ValueType to) {
+  if (from == to) return false;
+  return (from == ValueType::Integer && to != ValueType::Boolean) ||
+         (from == ValueType::Number && component_count(to) > 1);
+}
+
+bool is_value(const sema::Type& type) { return type.kind == sema::Type::Kind::Value; }
+
+const LibraryFunction* find_row(std::string_view name, std::initializer_list<ValueType> types) {
+  for (const LibraryFunction& row : library_overloads(name))
+    if (row.parameter_count == types.size() && std::equal(types.begin(), types.end(), row.parameters.begin()))
+      return &row;
+  return nullptr;
+}
+
+} // namespace
+
+ValueId FunctionBuild::converted(ValueId value, ValueType type) {
+  if (value == kNone) {
+    defect("a value is missing");
+    return b_.zero(type);
+  }
+  return converts(b_.type_of(value), type) ? b_.convert(value, type) : value;
+}
+
+ValueId FunctionBuild::evaluate(const Expr& expr) {
+  const At at(b_, expr.span);
+  const ValueId value = evaluate_kind(expr);
+  const sema::Type& type = fact(expr).type;
+  return value != kNone && is_value(type) ? converted(value, type.value) : value;
+}
+
+ValueId FunctionBuild::evaluate_kind(const Expr& expr) {
+  return visit(expr, Overloaded{
+                         [&](const BooleanExpr& literal) { return b_.boolean(literal.value); },
+                         [&](const IntegerExpr& literal) { return b_.integer(literal.value); },
+                         [&](const NumberExpr& literal) { return b_.number(literal.value); },
+                         [&](const ParenExpr& paren) { return evaluate(*paren.inner); },
+                         [&](const NameExpr& use) { return name(use); },
+                         [&](const IndexExpr& access) { return index(access); },
+                         [&](const UnaryExpr& operation) { return unary(operation); },
+                         [&](const BinaryExpr& operation) { return binary(operation); },
+                         [&](const CallExpr& operation) {
+                           const Values values = call(operation);
+                           return values.empty() ? kNone : values[0];
+                         },
+                         [&](const MethodCallExpr& operation) {
+                           const Values values = call(operation);
+                           return values.empty() ? kNone : values[0];
+                         },
+                         [&](const auto&) { return kNone; }, // strings and functions
+                     });
+}
+
+FunctionBuild::Values FunctionBuild::evaluate_all(const Expr& expr) {
+  if (expr.kind != ExprKind::Call && expr.kind != ExprKind::MethodCall) return {evaluate(expr)};
+  const At at(b_, expr.span);
+  Values values = call(expr);
+  if (!values.empty() && values[0] != kNone && is_value(fact(expr).type))
+    values[0] = converted(values[0], fact(expr).type.value);
+  return values;
+}
+
+FunctionBuild::Values FunctionBuild::evaluate_list(std::span<Expr* const> exprs) {
+  Values values;
+  for (size_t i = 0; i + 1 < exprs.size(); ++i)
+    values.push_back(evaluate(*exprs[i]));
+  if (!exprs.empty()) {
+    const Values last = evaluate_all(*exprs.back());
+    values.insert(values.end(), last.begin(), last.end());
+  }
+  return values;
+}
+
+// ---- names
+// -----------------------------------------------------------------------------------------------------------
+
+ValueId FunctionBuild::constant(const ExpressionFact& known) {
+  return known.type.is(ValueType::Integer) ? b_.integer(known.integer_constant) : b_.number(known.constant);
+}
+
+ValueId FunctionBuild::name(const NameExpr& expr) {
+  const ExpressionFact& known = fact(expr);
+  switch (known.name) {
+  case NameKind::Global:
+    return b_.load_global(known.index, shared_.module.globals[known.index].type);
+  case NameKind::Constant:
+    return constant(known);
+  case NameKind::Function:
+  case NameKind::Library:
+    return kNone;
+  case NameKind::Local:
+    break;
+  }
+  if (expr.local == nullptr || !storage_type(*expr.local)) return kNone;
+  if (const auto slot = shared_.slots.find(expr.local); slot != shared_.slots.end())
+    return b_.load_global(slot->second, shared_.module.globals[slot->second].type);
+  return b_.load(variable_of(*expr.local));
+}
+
+ValueId FunctionBuild::index(const IndexExpr& expr) {
+  const ExpressionFact& known = fact(expr);
+  if (known.components.empty()) {
+    if (known.name == NameKind::Constant) return constant(known);
+    if (known.name == NameKind::Global && is_value(known.type))
+      return b_.load_global(known.index, shared_.module.globals[known.index].type);
+    return kNone; // a function of a library's table
+  }
+  const ValueId object = evaluate(*expr.object);
+  if (object == kNone) return kNone;
+  if (known.components.size() == 1) return b_.component(object, known.components[0]);
+  Values numbers;
+  for (const uint8_t component : known.components)
+    numbers.push_back(b_.component(object, component));
+  return b_.construct(vector_type(static_cast<unsigned>(numbers.size())), numbers);
+}
+
+// ---- operators
+// -------------------------------------------------------------------------------------------------------
+
+ValueId FunctionBuild::unary(const UnaryExpr& expr) {
+  const ExpressionFact& known = fact(expr);
+  switch (expr.op) {
+  case UnaryOp::Len: {
+    // Of strings only: constants.
+    const Expr& operand = without_parens(*expr.operand);
+    const auto* literal = try_as<StringExpr>(&operand);
+    return b_.integer(static_cast<int64_t>(literal ? literal->value.size() : fact(operand).type.text.size()));
+  }
+  case UnaryOp::Not:
+    return b_.unary(Op::Not, evaluate_as(*expr.operand, ValueType::Boolean));
+  case UnaryOp::BitNot:
+    return b_.unary(Op::Not, evaluate_as(*expr.operand, ValueType::Integer));
+  case UnaryOp::Neg:
+    break;
+  }
+  const ValueId operand = is_value(known.type) ? evaluate_as(*expr.operand, known.type.value) : evaluate(*expr.operand);
+  const Instruction& literal = b_.at(operand);
+  if (literal.op == Op::ConstNumber) return b_.number(-literal.number);
+  if (literal.op == Op::ConstInteger)
+    return b_.integer(static_cast<int64_t>(0 - static_cast<uint64_t>(literal.integer)));
+  return b_.unary(Op::Neg, operand);
+}
+
+ValueId FunctionBuild::binary(const BinaryExpr& expr) {
+  const ExpressionFact& known = fact(expr);
+  switch (expr.op) {
+  case BinaryOp::Or:
+    return known.form == OperatorForm::Conditional ? conditional(expr, known.type.value) : logical(expr);
+  case BinaryOp::And:
+    return logical(expr);
+  case BinaryOp::Lt:
+  case BinaryOp::Gt:
+  case BinaryOp::Le:
+  case BinaryOp::Ge:
+  case BinaryOp::Eq:
+  case BinaryOp::Ne:
+    return comparison(expr, known);
+  default:
+    return arithmetic(expr, known);
+  }
+}
+
+void FunctionBuild::divisor_fault(ValueId divisor) {
+  const std::optional<int64_t> value = known_integer(divisor);
+  if (value && *value != 0) return;
+  b_.fault(b_.compare(Op::Eq, divisor, b_.integer(0)), FaultCode::DivideByZero);
+}
+
+std::optional<int64_t> FunctionBuild::known_integer(ValueId value) const {
+  const Instruction& instruction = b_.at(value);
+  if (instruction.op != Op::ConstInteger) return {};
+  return instruction.integer;
+}
+
+ValueId FunctionBuild::arithmetic(const BinaryExpr& expr, const ExpressionFact& known) {
+  if (expr.op == BinaryOp::Pow && is_two(*expr.right)) {
+    const ValueId base = evaluate_as(*expr.left, known.type.value);
+    return b_.binary(Op::Mul, base, base);
+  }
+  if (known.library != nullptr) return library_operator(expr, known);
+  Op op = Op::Add;
+  switch (expr.op) {
+  case BinaryOp::Add:
+    op = Op::Add;
+    break;
+  case BinaryOp::Sub:
+    op = Op::Sub;
+    break;
+  case BinaryOp::Mul:
+    op = Op::Mul;
+    break;
+  case BinaryOp::Div:
+    op = Op::Div;
+    break;
+  case BinaryOp::BitAnd:
+    op = Op::And;
+    break;
+  case BinaryOp::BitOr:
+    op = Op::Or;
+    break;
+  case BinaryOp::BitXor:
+    op = Op::Xor;
+    break;
+  default:
+    defect("an operator without its row of the library");
+    return b_.zero(known.type.value);
+  }
+  const ValueId left = evaluate_as(*expr.left, known.operand_type);
+  const ValueId right = evaluate_as(*expr.right, known.operand_type);
+  return b_.binary(op, left, right);
+}
+
+ValueId FunctionBuild::library_operator(const BinaryExpr& expr, const ExpressionFact& known) {
+  const LibraryFunction& row = *known.library;
+  const bool by_component = row.componentwise && is_vector(known.type.value);
+  const ValueType type = by_component ? known.type.value : row.results[0];
+  // Both operands are evaluated before either is converted or checked: a conversion has no effect, a fault has.
+  const ValueId left = evaluate(*expr.left);
+  const ValueId right = evaluate(*expr.right);
+  if (by_component || !is_vector(known.type.value)) return library_value(row, type, {left, right});
+  // A row of numbers alone, for vectors: component after component.
+  Values numbers;
+  for (uint32_t i = 0; i < component_count(known.type.value); ++i) {
+    const auto part = [&](ValueId operand) {
+      return is_vector(b_.type_of(operand)) ? b_.component(operand, i) : operand;
+    };
+    numbers.push_back(library_value(row, ValueType::Number, {part(left), part(right)}));
+  }
+  return b_.construct(known.type.value, numbers);
+}
+
+/// Operands are converted to what the row takes; a zero divisor of integers faults.
+ValueId FunctionBuild::library_value(const LibraryFunction& row, ValueType type, Values operands) {
+  const bool by_component = row.componentwise && is_vector(type);
+  for (size_t i = 0; i < operands.size(); ++i) {
+    if (!by_component)
+      operands[i] = converted(operands[i], row.parameters[i]);
+    else if (operands[i] == kNone || !is_vector(b_.type_of(operands[i])))
+      operands[i] = converted(operands[i], ValueType::Number);
+  }
+  const bool divides = row.name == "op.idiv" || row.name == "op.mod" || row.name == "math.fmod";
+  if (divides && row.parameters[1] == ValueType::Integer) divisor_fault(operands[1]);
+  return b_.call_library(row, type, std::move(operands));
+}
+
+ValueId FunctionBuild::comparison(const BinaryExpr& expr, const ExpressionFact& known) {
+  if (known.form == OperatorForm::Mixed) {
+    const ValueId left = evaluate(*expr.left);
+    return mixed_comparison(expr.op, left, evaluate(*expr.right));
+  }
+  const ValueId left = evaluate_as(*expr.left, known.operand_type);
+  const ValueId right = evaluate_as(*expr.right, known.operand_type);
+  switch (expr.op) {
+  case BinaryOp::Lt:
+    return b_.compare(Op::Lt, left, right);
+  case BinaryOp::Le:
+    return b_.compare(Op::Le, left, right);
+  case BinaryOp::Gt:
+    return b_.compare(Op::Lt, right, left);
+  case BinaryOp::Ge:
+    return b_.compare(Op::Le, right, left);
+  case BinaryOp::Eq:
+    return b_.compare(Op::Eq, left, right);
+  default:
+    return b_.compare(Op::Ne, left, right);
+  }
+}
+
+/// An integer with a number, exactly: the library's rows, with the operands the way round that a row has them.
+ValueId FunctionBuild::mixed_comparison(BinaryOp op, ValueId left, ValueId right) {
+  if (op == BinaryOp::Gt || op == BinaryOp::Ge) {
+    std::swap(left, right);
+    op = op == BinaryOp::Gt ? BinaryOp::Lt : BinaryOp::Le;
+  }
+  const bool equality = op == BinaryOp::Eq || op == BinaryOp::Ne;
+  if (equality && b_.type_of(left) == ValueType::Number) std::swap(left, right);
+  const std::string_view name = equality ? "op.eq" : op == BinaryOp::Lt ? "op.lt" : "op.le";
+  const LibraryFunction* row = find_row(name, {b_.type_of(left), b_.type_of(right)});
+  if (row == nullptr) {
+    defect("a comparison without its row of the library");
+    return b_.boolean(false);
+  }
+  const ValueId value = b_.call_library(*row, ValueType::Boolean, {left, right});
+  return op == BinaryOp::Ne ? b_.unary(Op::Not, value) : value;
+}
+
+/// The value of `then_block` where the condition holds, else that of `else_block`; both blocks are ready and give their
+/// value at the end. Cheap ones are executed both.
+ValueId FunctionBuild::choose(ValueId condition, ValueType type, Block then_block, ValueId then_value, Block else_block,
+                              ValueId else_value) {
+  const auto then_cost = speculation_cost(function_, then_block), else_cost = speculation_cost(function_, else_block);
+  if (then_cost && else_cost && *then_cost + *else_cost <= kSelectCost) {
+    Block& here = b_.current();
+    here.instructions.insert(here.instructions.end(), then_block.instructions.begin(), then_block.instructions.end());
+    here.instructions.insert(here.instructions.end(), else_block.instructions.begin(), else_block.instructions.end());
+    return b_.select(condition, then_value, else_value);
+  }
+  const VariableId result = b_.variable("", type);
+  // The stores go to the ends of the ready blocks.
+  const auto store_at_end = [&](Block block, ValueId value) {
+    return b_.block([&] {
+      b_.current() = std::move(block);
+      b_.store(result, value);
+    });
+  };
+  Block with_then = store_at_end(std::move(then_block), then_value);
+  Block with_else = store_at_end(std::move(else_block), else_value);
+  b_.if_else(condition, std::move(with_then), std::move(with_else));
+  return b_.load(result);
+}
+
+ValueId FunctionBuild::logical(const BinaryExpr& expr) {
+  const bool is_and = expr.op == BinaryOp::And;
+  const ValueId left = evaluate_as(*expr.left, ValueType::Boolean);
+  ValueId right = kNone;
+  Block block = b_.block([&] { right = evaluate_as(*expr.right, ValueType::Boolean); });
+  const auto cost = speculation_cost(function_, block);
+  if (cost && *cost <= kSelectCost) {
+    Block& here = b_.current();
+    here.instructions.insert(here.instructions.end(), block.instructions.begin(), block.instructions.end());
+    return b_.binary(is_and ? Op::And : Op::Or, left, right);
+  }
+  if (is_and) return choose(left, ValueType::Boolean, std::move(block), right, {}, left);
+  return choose(left, ValueType::Boolean, {}, left, std::move(block), right);
+}
+
+/// c and a or b, also in chains: (c and a or d and b) or e. A term `c and a` with an `a` that is not boolean gives a
+/// where c holds and passes on otherwise; any other term gives its value.
+ValueId FunctionBuild::conditional(const BinaryExpr& expr, ValueType type) {
+  std::vector<const Expr*> terms;
+  const Expr* rest = &expr;
+  while (const BinaryExpr* chain = as_operation(*rest, BinaryOp::Or)) {
+    terms.push_back(chain->right);
+    rest = chain->left;
+  }
+  terms.push_back(rest);
+  std::reverse(terms.begin(), terms.end());
+
+  const auto from = [&](auto&& self, size_t i) -> ValueId {
+    const At at(b_, terms[i]->span);
+    const BinaryExpr* term = i + 1 < terms.size() ? as_operation(*terms[i], BinaryOp::And) : nullptr;
+    if (term == nullptr) return evaluate_as(*terms[i], type);
+    const ValueId condition = evaluate_as(*term->left, ValueType::Boolean);
+    ValueId then_value = kNone, else_value = kNone;
+    Block then_block = b_.block([&] { then_value = evaluate_as(*term->right, type); });
+    Block else_block = b_.block([&] { else_value = self(self, i + 1); });
+    return choose(condition, type, std::move(then_block), then_value, std::move(else_block), else_value);
+  };
+  return from(from, 0);
+}
+
+// ---- calls
+// -----------------------------------------------------------------------------------------------------------
+
+FunctionBuild::Values FunctionBuild::call(const Expr& expr) {
+  const auto* method = try_as<MethodCallExpr>(&expr);
+  const auto args = method != nullptr ? method->args : static_cast<const CallExpr&>(expr).args;
+  const ExpressionFact& known = fact(expr);
+  if (known.call == CallKind::Parameter) {
+    const GlobalId global = shared_.parameters[known.index];
+    if (global == kNone) return {kNone};
+    return {b_.load_global(global, shared_.module.globals[global].type)};
+  }
+  if (known.call == CallKind::Error) {
+    evaluate_list(args);
+    b_.fault(b_.boolean(true), FaultCode::Error, message_of(args, 0, "error"));
+    // What follows is not executed, but is translated: give it a value to go on with.
+    return {is_value(known.type) ? b_.zero(known.type.value) : kNone};
+  }
+  Values arguments;
+  if (method != nullptr) arguments.push_back(evaluate(*method->object));
+  const Values listed = evaluate_list(args);
+  arguments.insert(arguments.end(), listed.begin(), listed.end());
+  switch (known.call) {
+  case CallKind::Specialisation:
+    return call_specialisation(known, arguments);
+  case CallKind::Library:
+    return call_library(known, std::move(arguments));
+  case CallKind::Construct:
+    return {construct(known.type.value, arguments)};
+  case CallKind::Convert:
+    return {converted(arguments[0], known.type.value)};
+  case CallKind::ToInteger:
+    return {to_integer(known, arguments[0])};
+  case CallKind::Assert:
+    assertion(expr, args, arguments[0]);
+    return arguments;
+  default:
+    return {kNone};
+  }
+}
+
+FunctionBuild::Values FunctionBuild::call_specialisation(const ExpressionFact& known, const Values& arguments) {
+  const sema::Specialisation& callee = *known.callee;
+  Values passed;
+  for (size_t i = 0; i < callee.parameters.size(); ++i)
+    if (is_value(callee.parameters[i]))
+      passed.push_back(converted(i < arguments.size() ? arguments[i] : kNone, callee.parameters[i].value));
+  std::vector<VariableId> captures;
+  for (const Local* local : callee.captures)
+    captures.push_back(variable_of(*local));
+  const std::vector<ValueType> results = run_time_types(callee.results);
+  const ValueId call = b_.call(callee.id, results, std::move(passed), std::move(captures));
+  Values values;
+  uint32_t index = 0;
+  for (const sema::Type& type : callee.results) {
+    values.push_back(is_value(type) ? b_.result(call, index, type.value) : kNone);
+    if (is_value(type)) ++index;
+  }
+  return values;
+}
+
+FunctionBuild::Values FunctionBuild::call_library(const ExpressionFact& known, Values arguments) {
+  const LibraryFunction& row = *known.library;
+  if (row.name == "math.max" || row.name == "math.min") {
+    // Of any number of arguments: from the left, as lmathlib.c does.
+    ValueId best = converted(arguments[0], row.results[0]);
+    for (size_t i = 1; i < arguments.size(); ++i)
+      best = library_value(row, row.results[0], {best, arguments[i]});
+    return {best};
+  }
+  arguments.resize(std::min<size_t>(arguments.size(), row.parameter_count));
+  for (size_t i = arguments.size(); i < row.parameter_count; ++i) {
+    const bool integer = row.parameters[i] == ValueType::Integer;
+    arguments.push_back(integer ? b_.integer(static_cast<int64_t>(row.defaults[i])) : b_.number(row.defaults[i]));
+    if (row.parameters[i] == ValueType::Boolean) arguments.back() = b_.boolean(row.defaults[i] != 0);
+  }
+  const bool by_component = row.componentwise && is_value(known.type) && is_vector(known.type.value);
+  const ValueType first = by_component ? known.type.value : row.results[0];
+  const ValueId call = library_value(row, first, std::move(arguments));
+  Values values = {call};
+  for (uint32_t i = 1; i < row.result_count; ++i)
+    values.push_back(b_.result(call, i, by_component ? first : row.results[i]));
+  return values;
+}
+
+/// Numbers and vectors strung together, or one number for each component.
+ValueId FunctionBuild::construct(ValueType type, const Values& arguments) {
+  Values numbers;
+  for (const ValueId argument : arguments) {
+    if (argument == kNone) continue;
+    const unsigned count = component_count(b_.type_of(argument));
+    if (count == 1)
+      numbers.push_back(converted(argument, ValueType::Number));
+    else
+      for (uint32_t i = 0; i < count; ++i)
+        numbers.push_back(b_.component(argument, i));
+  }
+  if (numbers.empty()) numbers.push_back(b_.number(0));
+  return b_.construct(type, numbers);
+}
+
+ValueId FunctionBuild::to_integer(const ExpressionFact& known, ValueId argument) {
+  const ValueId call = library_value(*known.library, ValueType::Integer, {argument});
+  const ValueId ok = b_.result(call, 1, ValueType::Boolean);
+  b_.fault(b_.unary(Op::Not, ok), FaultCode::IntegerRange);
+  return call;
+}
+
+void FunctionBuild::assertion(const Expr& expr, std::span<Expr* const> args, ValueId condition) {
+  // Anything but false and nil holds.
+  if (condition == kNone || b_.type_of(condition) != ValueType::Boolean) return;
+  const At at(b_, expr.span);
+  b_.fault(b_.unary(Op::Not, condition), FaultCode::Assert, message_of(args, 1, "assertion failed!"));
+}
+
+std::string FunctionBuild::message_of(std::span<Expr* const> args, size_t index, std::string_view otherwise) const {
+  if (index >= args.size()) return std::string(otherwise);
+  const Expr& expr = without_parens(*args[index]);
+  if (const auto* literal = try_as<StringExpr>(&expr)) return std::string(literal->value);
+  const sema::Type& type = fact(expr).type;
+  return std::string(type.kind == sema::Type::Kind::String ? type.text : otherwise);
+}
+
+} // namespace moonshade::ir

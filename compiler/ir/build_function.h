@@ -1,0 +1,126 @@
+// Inside `build` only: the state of the translation of one specialisation, shared by build.cpp (functions),
+// build_expressions.cpp and build_statements.cpp.
+#pragma once
+
+#include "compiler/ir/builder.h"
+#include "compiler/sema/program.h"
+
+#include <optional>
+#include <unordered_map>
+#include <unordered_set>
+#include <vector>
+
+namespace moonshade::ir {
+
+/// What the translations of all functions share.
+struct ModuleBuild {
+  const sema::Program& program;
+  Module& module;
+  std::unordered_map<const syntax::Local*, GlobalId> slots; ///< top-level locals that are globals
+  std::vector<GlobalId> parameters;                         ///< by the shader's parameter; kNone for strings
+};
+
+/// The types that a list of sema's types has at run time: those that are values.
+std::vector<ValueType> run_time_types(const std::vector<sema::Type>& types);
+
+class FunctionBuild {
+public:
+  FunctionBuild(ModuleBuild& shared, const sema::Specialisation& specialisation, Function& function);
+  /// Translates the whole body.
+  void run();
+
+private:
+  using Values = std::vector<ValueId>;
+
+  /// Sets the span of what is emitted until the end of the scope.
+  class At {
+  public:
+    At(Builder& builder, Span span) : builder_(builder), before_(builder.span()) { builder_.set_span(span); }
+    ~At() { builder_.set_span(before_); }
+    At(const At&) = delete;
+    At& operator=(const At&) = delete;
+
+  private:
+    Builder& builder_;
+    Span before_;
+  };
+
+  // Functions (build.cpp)
+  void receive_parameters();
+  VariableId variable_of(const syntax::Local& local);
+  std::optional<ValueType> storage_type(const syntax::Local& local) const;
+  void store_local(const syntax::Local& local, ValueId value);
+  const sema::ExpressionFact& fact(const syntax::Expr& expr) const;
+  /// What sema should have refused: faults wherever it is executed, and is loud about it.
+  void defect(std::string_view what);
+
+  // Expressions (build_expressions.cpp). A value of kNone stands for what has none at run time: functions and strings.
+  ValueId evaluate(const syntax::Expr& expr);
+  ValueId evaluate_as(const syntax::Expr& expr, ValueType type) { return converted(evaluate(expr), type); }
+  /// All values of a list as Lua adjusts it: the last expression gives all its values, the others one each.
+  Values evaluate_list(std::span<syntax::Expr* const> exprs);
+  /// All values of one expression.
+  Values evaluate_all(const syntax::Expr& expr);
+  ValueId converted(ValueId value, ValueType type);
+  ValueId evaluate_kind(const syntax::Expr& expr);
+  ValueId name(const syntax::NameExpr& expr);
+  ValueId index(const syntax::IndexExpr& expr);
+  ValueId constant(const sema::ExpressionFact& known);
+  ValueId unary(const syntax::UnaryExpr& expr);
+  ValueId binary(const syntax::BinaryExpr& expr);
+  ValueId arithmetic(const syntax::BinaryExpr& expr, const sema::ExpressionFact& known);
+  ValueId library_operator(const syntax::BinaryExpr& expr, const sema::ExpressionFact& known);
+  ValueId comparison(const syntax::BinaryExpr& expr, const sema::ExpressionFact& known);
+  ValueId mixed_comparison(syntax::BinaryOp op, ValueId left, ValueId right);
+  ValueId logical(const syntax::BinaryExpr& expr);
+  ValueId conditional(const syntax::BinaryExpr& expr, ValueType type);
+  ValueId choose(ValueId condition, ValueType type, Block then_block, ValueId then_value, Block else_block,
+                 ValueId else_value);
+  Values call(const syntax::Expr& expr);
+  Values call_specialisation(const sema::ExpressionFact& known, const Values& arguments);
+  Values call_library(const sema::ExpressionFact& known, Values arguments);
+  ValueId construct(ValueType type, const Values& arguments);
+  ValueId to_integer(const sema::ExpressionFact& known, ValueId argument);
+  void assertion(const syntax::Expr& expr, std::span<syntax::Expr* const> args, ValueId condition);
+  ValueId library_value(const LibraryFunction& row, ValueType type, Values operands);
+  void divisor_fault(ValueId divisor);
+  std::string message_of(std::span<syntax::Expr* const> args, size_t index, std::string_view otherwise) const;
+
+  // Statements (build_statements.cpp)
+  void statements(const syntax::Block& block);
+  void statements(std::span<syntax::Stat* const> stats);
+  void statement(const syntax::Stat& stat);
+  void local(const syntax::LocalStat& stat);
+  void assign(const syntax::AssignStat& stat);
+  void if_chain(const syntax::IfStat& stat);
+  void if_clauses(const syntax::IfStat& stat, size_t clause);
+  void while_loop(const syntax::WhileStat& stat);
+  void repeat_loop(const syntax::RepeatStat& stat);
+  void numeric_for(const syntax::NumericForStat& stat);
+  void integer_for(const syntax::NumericForStat& stat, ValueId start, ValueId limit, ValueId step);
+  void float_for(const syntax::NumericForStat& stat, ValueId start, ValueId limit, ValueId step);
+  /// A limit of an integer loop that is a number: the integer it stands for, and whether the loop is skipped anyway.
+  struct Limit {
+    ValueId value;
+    ValueId skip; ///< kNone: never
+  };
+  Limit clip_limit(ValueId limit, ValueId step);
+  ValueId is_last_iteration(ValueId counter, ValueId limit, ValueId step);
+  ValueId is_positive(ValueId step);
+  void loop_body(const syntax::NumericForStat& stat, VariableId counter);
+  void break_if(ValueId condition, LabelId label);
+  void return_statement(const syntax::ReturnStat& stat);
+  void find_goto_targets(const syntax::Block& block);
+
+  std::optional<int64_t> known_integer(ValueId value) const;
+
+  ModuleBuild& shared_;
+  const sema::Specialisation& specialisation_;
+  Function& function_;
+  Builder b_;
+  std::unordered_map<const syntax::Local*, VariableId> variables_;
+  std::unordered_map<const syntax::Stat*, LabelId> labels_; ///< of loops and of labels that a goto names
+  std::unordered_set<const syntax::LabelStat*> goto_targets_;
+};
+
+} // namespace moonshade::ir

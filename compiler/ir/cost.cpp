@@ -1,0 +1,40 @@
+// Costs of speculation. See cost.h.
+#include "compiler/ir/cost.h"
+
+namespace moonshade::ir {
+
+std::optional<unsigned> speculation_cost(const Instruction& instruction) {
+  const unsigned components = component_count(instruction.type);
+  switch (instruction.op) {
+  case Op::ConstBoolean:
+  case Op::ConstInteger:
+  case Op::ConstNumber:
+  case Op::Argument:
+  case Op::Construct:
+  case Op::Component:
+    return 0;
+  case Op::Div:
+    return 4 * components;
+  case Op::CallLibrary:
+    return {};
+  // Globals never change after init, and results have no cost of their own.
+  case Op::LoadGlobal:
+  case Op::Result:
+    return 0;
+  default:
+    if (info(instruction.op).shape != OpShape::Value) return {};
+    return components;
+  }
+}
+
+std::optional<unsigned> speculation_cost(const Function& function, const Block& block) {
+  unsigned sum = 0;
+  for (const ValueId id : block.instructions) {
+    const std::optional<unsigned> cost = speculation_cost(function.instructions[id]);
+    if (!cost) return {};
+    sum += *cost;
+  }
+  return sum;
+}
+
+} // namespace moonshade::ir
