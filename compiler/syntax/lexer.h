@@ -6,6 +6,7 @@
 #include "compiler/base/diagnostics.h"
 #include "compiler/syntax/token.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -42,8 +43,8 @@ private:
   // lexer_strings.cpp
   /// Bytes of a long bracket's opening ("[==[") at the current place; 0 where there is none.
   size_t long_bracket_size() const;
-  /// Reads a long bracket to its end; its content. `code` is reported where it has none.
-  std::string_view long_bracket(size_t size, DiagnosticCode code, size_t token_begin);
+  /// Reads a long bracket to its end; its content. Where it has no end, `code` is reported.
+  std::optional<std::string_view> long_bracket(size_t size, DiagnosticCode code, size_t token_begin);
   std::string_view normalise_line_breaks(std::string_view content);
   void scan_left_bracket(Token& token, size_t begin);
   void scan_string(Token& token, size_t begin);

@@ -62,7 +62,7 @@ size_t Lexer::long_bracket_size() const {
   return peek(size) == '[' ? size + 1 : 0;
 }
 
-std::string_view Lexer::long_bracket(size_t size, DiagnosticCode code, size_t token_begin) {
+std::optional<std::string_view> Lexer::long_bracket(size_t size, DiagnosticCode code, size_t token_begin) {
   std::string closing(size, '=');
   closing.front() = closing.back() = ']';
   at_ += size;
@@ -81,8 +81,10 @@ std::string_view Lexer::long_bracket(size_t size, DiagnosticCode code, size_t to
   }
   had_errors_ = true;
   const Span opening = {file_, static_cast<uint32_t>(token_begin), static_cast<uint32_t>(begin)};
+  constexpr size_t kMaxShown = 20;
+  if (closing.size() > kMaxShown) closing = closing.substr(0, kMaxShown) + "...";
   diagnostics_.report(code, opening, {closing});
-  return text_.substr(begin);
+  return {};
 }
 
 /// Each line break of a long string, of whichever form, is one line feed.
@@ -102,8 +104,9 @@ std::string_view Lexer::normalise_line_breaks(std::string_view content) {
 
 void Lexer::scan_left_bracket(Token& token, size_t begin) {
   if (const size_t size = long_bracket_size(); size != 0) {
-    token.kind = TokenKind::String;
-    token.text = normalise_line_breaks(long_bracket(size, DiagnosticCode::UnfinishedLongString, begin));
+    const auto content = long_bracket(size, DiagnosticCode::UnfinishedLongString, begin);
+    token.kind = content ? TokenKind::String : TokenKind::Invalid;
+    token.text = normalise_line_breaks(content.value_or(""));
     return;
   }
   ++at_;
@@ -130,7 +133,9 @@ void Lexer::scan_string(Token& token, size_t begin) {
   }
   const std::string_view plain = text_.substr(begin + 1, at_ - begin - 1);
   token.text = has_escapes ? arena_.copy(std::string_view(buffer_)) : plain;
-  if (!accept(quote)) report(DiagnosticCode::UnfinishedString, begin, {std::string(1, quote)});
+  if (accept(quote)) return;
+  token.kind = TokenKind::Invalid;
+  report(DiagnosticCode::UnfinishedString, begin, {std::string(1, quote)});
 }
 
 void Lexer::scan_escape() {

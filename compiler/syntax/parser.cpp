@@ -140,12 +140,19 @@ void Parser::start_panic() {
 void Parser::syntax_error(const std::string& message) {
   if (may_report_here()) {
     Diagnostic& diagnostic = diagnostics_.report(DiagnosticCode::SyntaxError, token_.span, {message, near()});
-    const std::string_view rest = text_.substr(token_.span.begin, 2);
-    if (rest == "!=") diagnostic.suggest({file_, token_.span.begin, token_.span.begin + 2}, "~=");
-    if (rest == "&&") diagnostic.suggest({file_, token_.span.begin, token_.span.begin + 2}, "and");
-    if (rest == "||") diagnostic.suggest({file_, token_.span.begin, token_.span.begin + 2}, "or");
+    suggest_operator(diagnostic);
   }
   start_panic();
+}
+
+/// Operators of C: `!=` fails at its first byte, `&&` and `||` at their second, the first being an operator of Lua.
+void Parser::suggest_operator(Diagnostic& diagnostic) const {
+  const uint32_t at = token_.span.begin;
+  const std::string_view here = text_.substr(at, 2);
+  const std::string_view around = text_.substr(at == 0 ? 0 : at - 1, 2);
+  if (here == "!=") diagnostic.suggest({file_, at, at + 2}, "~=");
+  if (around == "&&") diagnostic.suggest({file_, at - 1, at + 1}, "and");
+  if (around == "||") diagnostic.suggest({file_, at - 1, at + 1}, "or");
 }
 
 /// Beyond a limit nothing more is read: the text counts as ended.

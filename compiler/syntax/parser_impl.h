@@ -39,6 +39,7 @@ private:
 
   // ---- parser.cpp: errors and recovery
   void syntax_error(const std::string& message);
+  void suggest_operator(Diagnostic& diagnostic) const;
   bool may_report_here();
   void start_panic();
   void too_large(std::string what, size_t limit);
