@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
@@ -30,13 +31,20 @@ struct Fixture : testing::Test {
 };
 using DiagnosticsTest = Fixture;
 
-TEST_F(DiagnosticsTest, CodesAreKebabAndUnique) {
-  std::set<std::string_view> seen;
+TEST_F(DiagnosticsTest, CodesAreKebabCase) {
 #define MOONSHADE_DIAGNOSTIC(name, code, severity, message)                                                            \
-  EXPECT_TRUE(seen.insert(code).second) << code;                                                                       \
   EXPECT_EQ(std::string_view(code).find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-"), std::string::npos)      \
       << code;                                                                                                         \
   EXPECT_FALSE(std::string_view(message).ends_with(".")) << message;
+#include "compiler/base/diagnostic_codes.def"
+}
+
+TEST_F(DiagnosticsTest, ACodeHasOneSeverityAndNoWordingTwice) {
+  std::map<std::string_view, Severity> severities;
+  std::set<std::pair<std::string_view, std::string_view>> wordings;
+#define MOONSHADE_DIAGNOSTIC(name, code, severity, message)                                                            \
+  EXPECT_EQ(severities.try_emplace(code, Severity::severity).first->second, Severity::severity) << code;               \
+  EXPECT_TRUE(wordings.emplace(code, message).second) << code << ": " << message;
 #include "compiler/base/diagnostic_codes.def"
 }
 
