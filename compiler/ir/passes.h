@@ -25,7 +25,7 @@ void forward_variables(Function& function);
 void convert_ifs_to_selects(Function& function);
 
 /// Values without a use, stores to variables that are never loaded, unused variables. (dead_code.cpp)
-void remove_dead_code(Module& module, Function& function);
+void remove_dead_code(Function& function);
 
 /// f32 only: a*b + c and its kin become fma. (fuse.cpp)
 void fuse(Module& module);
