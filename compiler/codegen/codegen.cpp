@@ -1,0 +1,138 @@
+// The stages of code generation in order (codegen.h): emit, link the library, optimise, and the machine's code.
+#include "compiler/codegen/codegen.h"
+
+#include "compiler/codegen/emitter.h"
+#include "compiler/codegen/entry.h"
+#include "compiler/codegen/link.h"
+#include "compiler/codegen/pipeline.h"
+#include "compiler/codegen/target.h"
+
+#include <llvm/ADT/SmallString.h>
+#include <llvm/IR/LegacyPassManager.h>
+#include <llvm/Support/raw_ostream.h>
+
+#include <algorithm>
+#include <chrono>
+
+namespace moonshade::codegen {
+
+struct Generated::Parts {
+  Target target;
+  llvm::LLVMContext context;
+  std::unique_ptr<llvm::Module> module;
+};
+
+Generated::Generated() = default;
+Generated::~Generated() = default;
+Generated::Generated(Generated&&) noexcept = default;
+Generated& Generated::operator=(Generated&&) noexcept = default;
+
+namespace {
+
+class Stopwatch {
+public:
+  /// Milliseconds since the last call.
+  double lap() {
+    const auto now = std::chrono::steady_clock::now();
+    return std::chrono::duration<double, std::milli>(now - std::exchange(begin_, now)).count();
+  }
+
+private:
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+};
+
+FunctionAttributes attributes_for(const Target& target, const Domain& domain) {
+  FunctionAttributes attributes{target.cpu, target.features, false};
+  const unsigned bits = domain.width * (domain.precision == Precision::F32 ? 32 : 64);
+  attributes.wide = target.vector_bits == 512 && bits >= 512;
+  return attributes;
+}
+
+void emit_module(Generated& generated, const ir::Module& module, const Options& options) {
+  Generated::Parts& parts = *generated.parts;
+  CodeInfo& info = generated.info;
+  const Domain domain(parts.context, info.precision, info.width), single(parts.context, info.precision, 1);
+  const FunctionAttributes attributes = attributes_for(parts.target, domain);
+  std::vector<FaultPlace> places;
+  ModuleEmitter emitter(*parts.module, module, domain, attributes, places);
+  for (const ir::Entry& entry : module.entries) {
+    std::vector<bool> uniform;
+    for (const std::string& name : module.functions[entry.function].parameter_names)
+      uniform.push_back(std::ranges::find(options.uniform_inputs, name) != options.uniform_inputs.end());
+    const std::string symbol = "moonshade_entry_" + entry.name;
+    info.entries.push_back({symbol, emit_kernel(emitter, entry, symbol, uniform)});
+  }
+  info.global_offsets = emitter.layout.offsets;
+  info.constants_size = emitter.layout.size;
+  if (module.init != ir::kNone) {
+    info.init_symbol = "moonshade_init";
+    ModuleEmitter init(*parts.module, module, single, attributes, places);
+    emit_init(init, info.init_symbol);
+  }
+  for (const FaultPlace& place : places)
+    info.places.push_back({place.code, place.span, place.message});
+  for (EntryCode& entry : info.entries)
+    for (const FaultPlace& place : places)
+      entry.info.site_codes.push_back(place.code);
+#ifndef NDEBUG
+  if (std::string complaint = verify(*parts.module); !complaint.empty())
+    generated.error = "internal error: " + complaint;
+#endif
+  if (generated.error.empty()) link_library(*parts.module, domain, attributes, generated.error);
+}
+
+std::string machine_code(Generated& generated, llvm::CodeGenFileType type) {
+  Stopwatch watch;
+  llvm::SmallString<0> bytes;
+  llvm::raw_svector_ostream stream(bytes);
+  llvm::legacy::PassManager passes;
+  if (generated.parts->target.machine->addPassesToEmitFile(passes, stream, nullptr, type)) {
+    generated.error = "the target cannot emit this kind of file";
+    return {};
+  }
+  // Code generation changes the module; so that it can be asked for again, it works on it only once.
+  passes.run(*generated.parts->module);
+  generated.times.codegen = watch.lap();
+  return std::string(bytes);
+}
+
+} // namespace
+
+std::string Generated::llvm_text() const {
+  std::string text;
+  llvm::raw_string_ostream stream(text);
+  parts->module->print(stream, nullptr);
+  return text;
+}
+
+std::string Generated::assembly() { return machine_code(*this, llvm::CodeGenFileType::AssemblyFile); }
+std::string Generated::object() { return machine_code(*this, llvm::CodeGenFileType::ObjectFile); }
+
+Generated generate(const ir::Module& module, const Options& options) {
+  Stopwatch watch;
+  Generated generated;
+  generated.parts = std::make_unique<Generated::Parts>();
+  Generated::Parts& parts = *generated.parts;
+  parts.target = make_target({options.cpu, options.triple, options.optimization});
+  if (!parts.target.error.empty()) {
+    generated.error = parts.target.error;
+    return generated;
+  }
+  generated.info.precision = options.precision;
+  generated.info.width = options.width != 0 ? options.width : best_width(parts.target, options.precision);
+  parts.module = std::make_unique<llvm::Module>("shader", parts.context);
+  parts.module->setTargetTriple(parts.target.machine->getTargetTriple().str());
+  parts.module->setDataLayout(parts.target.machine->createDataLayout());
+  emit_module(generated, module, options);
+  generated.times.emit = watch.lap();
+  if (!generated.error.empty()) return generated;
+  optimize(*parts.module, *parts.target.machine, options.optimization);
+  generated.times.optimize = watch.lap();
+#ifndef NDEBUG
+  if (std::string complaint = verify(*parts.module); !complaint.empty())
+    generated.error = "internal error: " + complaint;
+#endif
+  return generated;
+}
+
+} // namespace moonshade::codegen

@@ -1,0 +1,76 @@
+// From a module of the IR to machine code: the public face of code generation. Needs no LLVM header.
+#pragma once
+
+#include "compiler/base/fault.h"
+#include "compiler/base/source.h"
+#include "compiler/codegen/batch.h"
+#include "compiler/ir/ir.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace moonshade::codegen {
+
+struct Options {
+  Precision precision = Precision::F32;
+  unsigned width = 0;                      ///< 0: the best for the target
+  int optimization = 2;                    ///< 0 to 3
+  std::string cpu = "native";              ///< "native" or a name of LLVM's
+  std::string triple;                      ///< empty: this machine's
+  std::vector<std::string> uniform_inputs; ///< by name of the parameter
+};
+
+struct EntryCode {
+  std::string symbol;
+  KernelInfo info;
+};
+
+struct FaultPlaceInfo {
+  FaultCode code;
+  Span span;
+  std::string message;
+};
+
+/// Everything about the generated code but the code.
+struct CodeInfo {
+  Precision precision = Precision::F32;
+  unsigned width = 1;
+  std::vector<EntryCode> entries;       ///< in the order of ir::Module::entries
+  std::string init_symbol;              ///< empty: nothing to run
+  std::vector<uint64_t> global_offsets; ///< by GlobalId: where it lies in the instance's constants
+  uint64_t constants_size = 0;
+  std::vector<FaultPlaceInfo> places; ///< by fault site
+};
+
+struct Times {
+  double emit = 0, optimize = 0, codegen = 0; ///< milliseconds
+};
+
+/// An optimised LLVM module and what is to be known of it. Each has a context of its own.
+class Generated {
+public:
+  Generated();
+  ~Generated();
+  Generated(Generated&&) noexcept;
+  Generated& operator=(Generated&&) noexcept;
+
+  std::string error; ///< set where nothing was generated: unknown CPU, no such library function, ...
+  CodeInfo info;
+  Times times;
+
+  std::string llvm_text() const;
+  std::string assembly();
+  /// An object file of the target.
+  std::string object();
+
+  struct Parts;
+  std::unique_ptr<Parts> parts;
+};
+
+Generated generate(const ir::Module& module, const Options& options);
+
+/// The lane count that suits this machine best.
+unsigned native_width(Precision precision);
+
+} // namespace moonshade::codegen

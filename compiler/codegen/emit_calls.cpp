@@ -1,0 +1,188 @@
+// Calls of the library's exports and of functions of the module (emitter.h).
+#include "compiler/codegen/emitter.h"
+
+namespace moonshade::codegen {
+
+// --------------------------------------------------------------------------------------------------------- Library
+
+llvm::Function* ModuleEmitter::library_export(const LibraryFunction& row, unsigned width, unsigned pointers) {
+  const char* representation = domain.precision == Precision::F32 ? "f32" : "f64";
+  const std::string name = "ms_" + std::string(row.symbol) + "_" + representation + "_w" + std::to_string(width);
+  if (llvm::Function* known = llvm_module.getFunction(name)) return known;
+  const std::vector<llvm::Type*> parameters(pointers, llvm::PointerType::get(domain.context, 0));
+  auto* type = llvm::FunctionType::get(llvm::Type::getVoidTy(domain.context), parameters, false);
+  return new_function(type, name, false);
+}
+
+/// Memory for one argument or result of an export.
+llvm::Value* FunctionEmitter::lane_memory(ValueType type, bool varying, const char* name) {
+  return masks.allocate(llvm::ArrayType::get(domain_.memory_part(type, varying), component_count(type)), name);
+}
+
+/// One call of an export, on one lane where nothing varies.
+std::vector<Lanes> FunctionEmitter::library_call(const LibraryFunction& row, std::vector<Lanes> arguments) {
+  bool varying = false;
+  for (const Lanes& argument : arguments)
+    varying |= argument.varying();
+  std::vector<llvm::Value*> pointers;
+  for (unsigned i = 0; i < row.result_count; ++i)
+    pointers.push_back(lane_memory(row.results[i], varying, "out"));
+  for (unsigned i = 0; i < row.parameter_count; ++i) {
+    const ValueType type = row.parameters[i];
+    llvm::Value* memory = lane_memory(type, varying, "in");
+    llvm::Type* element = domain_.memory_part(type, varying);
+    for (size_t c = 0; c < arguments[i].parts.size(); ++c) {
+      llvm::Value* part = arguments[i].parts[c];
+      if (varying) part = broadcast(builder, domain_, part);
+      builder.CreateStore(to_memory(builder, domain_, type, part),
+                          builder.CreateConstInBoundsGEP1_64(element, memory, c));
+    }
+    pointers.push_back(memory);
+  }
+  const unsigned width = varying ? domain_.width : 1;
+  builder.CreateCall(owner_.library_export(row, width, static_cast<unsigned>(pointers.size())), pointers);
+  std::vector<Lanes> results(row.result_count);
+  for (unsigned i = 0; i < row.result_count; ++i) {
+    llvm::Type* element = domain_.memory_part(row.results[i], varying);
+    for (unsigned c = 0; c < component_count(row.results[i]); ++c) {
+      llvm::Value* loaded = builder.CreateLoad(element, builder.CreateConstInBoundsGEP1_64(element, pointers[i], c));
+      results[i].parts.push_back(from_memory(builder, row.results[i], loaded));
+    }
+  }
+  return results;
+}
+
+std::vector<Lanes> FunctionEmitter::call_library(const ir::Instruction& instruction) {
+  const LibraryFunction& row = *instruction.library;
+  std::vector<Lanes> arguments;
+  for (const ir::ValueId operand : instruction.operands)
+    arguments.push_back(value(operand));
+  if (!row.componentwise || !is_vector(instruction.type)) return library_call(row, std::move(arguments));
+  // By component: a number beside a vector counts for each.
+  Lanes result;
+  for (unsigned c = 0; c < component_count(instruction.type); ++c) {
+    std::vector<Lanes> components;
+    for (const Lanes& argument : arguments)
+      components.push_back({{argument.parts[argument.parts.size() == 1 ? 0 : c]}});
+    result.parts.push_back(library_call(row, std::move(components))[0].parts[0]);
+  }
+  return {result};
+}
+
+// ----------------------------------------------------------------------------------------------- Functions of the IR
+
+std::vector<Lanes> FunctionEmitter::call(ir::ValueId id, const ir::Instruction& instruction) {
+  const ir::FunctionId callee = instruction.index;
+  const ir::Signature& signature = activation_->facts->uniformity->calls.at(id);
+  std::vector<Lanes> arguments;
+  for (size_t i = 0; i < instruction.operands.size(); ++i) {
+    Lanes argument = value(instruction.operands[i]);
+    if (signature.arguments_varying[i])
+      for (llvm::Value*& part : argument.parts)
+        part = broadcast(builder, domain_, part);
+    arguments.push_back(std::move(argument));
+  }
+  std::vector<Slot> captures;
+  for (const ir::VariableId variable : instruction.variables)
+    captures.push_back(activation_->variables[variable]);
+  if (owner_.sizes.outlined[callee]) return call_outlined(callee, signature, arguments, captures);
+  return call_in_place(callee, signature, std::move(arguments), std::move(captures));
+}
+
+std::vector<Lanes> FunctionEmitter::call_outlined(ir::FunctionId callee, const ir::Signature& signature,
+                                                  const std::vector<Lanes>& arguments,
+                                                  const std::vector<Slot>& captures) {
+  const ir::Function& function = owner_.module.functions[callee];
+  std::vector<llvm::Value*> operands;
+  operands.push_back(constants_);
+  if (domain_.width > 1) operands.push_back(masks.active());
+  const FaultFacts& facts = owner_.fault_facts[callee];
+  if (facts.faults || facts.steps)
+    for (llvm::Value* pointer : {faults_.sites, faults_.steps, faults_.flag})
+      operands.push_back(pointer);
+  for (const Lanes& argument : arguments)
+    operands.insert(operands.end(), argument.parts.begin(), argument.parts.end());
+  for (const Slot& slot : captures)
+    operands.insert(operands.end(), slot.parts.begin(), slot.parts.end());
+  llvm::CallInst* result = builder.CreateCall(owner_.outlined(callee, signature), operands);
+  if (facts.faults || facts.steps) check_abort();
+  std::vector<Lanes> results;
+  unsigned part = 0;
+  for (const ValueType type : function.results) {
+    Lanes lanes;
+    for (unsigned c = 0; c < component_count(type); ++c)
+      lanes.parts.push_back(builder.CreateExtractValue(result, part++));
+    results.push_back(std::move(lanes));
+  }
+  return results;
+}
+
+/// The LLVM function of `id` for one signature: constants, mask, fault state, arguments, captures -> results.
+llvm::Function* ModuleEmitter::outlined(ir::FunctionId id, const ir::Signature& signature) {
+  if (const auto known = outlined_.find({id, signature}); known != outlined_.end()) return known->second;
+  const ir::Function& function = module.functions[id];
+  const ir::Uniformity& uniformity = *facts(id, signature).uniformity;
+  const bool wide = domain.width > 1;
+  const bool can_fault = fault_facts[id].faults || fault_facts[id].steps;
+  llvm::Type* pointer = llvm::PointerType::get(domain.context, 0);
+  std::vector<llvm::Type*> types{pointer};
+  if (wide) types.push_back(domain.mask());
+  if (can_fault) types.insert(types.end(), 3, pointer);
+  for (size_t i = 0; i < function.parameters.size(); ++i)
+    types.insert(types.end(), component_count(function.parameters[i]),
+                 domain.part(function.parameters[i], wide && signature.arguments_varying[i]));
+  for (uint32_t i = 0; i < function.captures; ++i)
+    types.insert(types.end(), component_count(function.variables[i].type), pointer);
+  llvm::Type* results = results_type(function, uniformity);
+  llvm::Function* made = new_function(llvm::FunctionType::get(results, types, false), function.name, true);
+  made->addFnAttr(llvm::Attribute::NoInline);
+  outlined_[{id, signature}] = made;
+
+  llvm::Argument* next = made->arg_begin();
+  llvm::Value* constants = next++;
+  llvm::Value* mask = wide ? next++ : nullptr;
+  FaultState state;
+  if (can_fault)
+    for (llvm::Value** field : {&state.sites, &state.steps, &state.flag})
+      *field = next++;
+  std::vector<Lanes> arguments;
+  for (const ValueType type : function.parameters) {
+    arguments.emplace_back();
+    for (unsigned c = 0; c < component_count(type); ++c)
+      arguments.back().parts.push_back(next++);
+  }
+  std::vector<Slot> captures;
+  for (uint32_t i = 0; i < function.captures; ++i) {
+    const ir::Variable& variable = function.variables[i];
+    captures.push_back({variable.type, variable.count, wide && signature.captures_varying[i], Masks::kOutside, {}});
+    for (unsigned c = 0; c < component_count(variable.type); ++c)
+      captures.back().parts.push_back(next++);
+  }
+  FunctionEmitter emitter(*this, made, mask, constants, state);
+  const std::vector<Lanes> values = emitter.call_in_place(id, signature, std::move(arguments), std::move(captures));
+  emitter.return_from_llvm(results, values);
+  return made;
+}
+
+void FunctionEmitter::return_from_llvm(llvm::Type* type, const std::vector<Lanes>& values) {
+  const auto give_back = [&](llvm::Value* result) {
+    if (type->isVoidTy())
+      builder.CreateRetVoid();
+    else
+      builder.CreateRet(result);
+  };
+  if (masks.open()) {
+    llvm::Value* result = type->isVoidTy() ? nullptr : llvm::Constant::getNullValue(type);
+    unsigned part = 0;
+    for (const Lanes& lanes : values)
+      for (llvm::Value* value : lanes.parts)
+        result = builder.CreateInsertValue(result, value, part++);
+    give_back(result);
+  }
+  finish();
+  if (!can_abort()) return;
+  builder.SetInsertPoint(abort_block());
+  give_back(type->isVoidTy() ? nullptr : llvm::Constant::getNullValue(type));
+}
+
+} // namespace moonshade::codegen

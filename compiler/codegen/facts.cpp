@@ -1,0 +1,180 @@
+// Walks over functions of the IR that gather facts for emission (facts.h).
+#include "compiler/codegen/facts.h"
+
+#include <algorithm>
+
+namespace moonshade::codegen {
+
+namespace {
+
+using ir::Op;
+
+/// Above this many instructions in all its places of use, a function is not emitted in place.
+constexpr uint64_t kInlineBudget = 1500;
+
+template <class Visit> void each_instruction(const ir::Function& function, const ir::Block& block, Visit&& visit) {
+  for (const ir::ValueId id : block.instructions) {
+    const ir::Instruction& instruction = function.instructions[id];
+    visit(instruction);
+    for (const ir::Block& inner : instruction.blocks)
+      each_instruction(function, inner, visit);
+  }
+}
+
+class FactsWalk {
+public:
+  FactsWalk(const ir::Function& function, FunctionFacts& facts) : function_(function), facts_(facts) {}
+
+  void walk(const ir::Block& block) {
+    path_.push_back(&block);
+    for (const ir::ValueId id : block.instructions)
+      visit(id, function_.instructions[id]);
+    path_.pop_back();
+  }
+  void finish() {
+    for (size_t i = 0; i < homes_.size(); ++i)
+      if (!homes_[i].empty()) facts_.homes[i] = homes_[i].back();
+  }
+
+  std::vector<std::vector<const ir::Block*>> homes_; ///< by variable: path to the home so far
+
+private:
+  bool varying(ir::ValueId id) const { return facts_.uniformity->control_varying[id]; }
+
+  void visit(ir::ValueId id, const ir::Instruction& instruction) {
+    switch (instruction.op) {
+    case Op::Load:
+    case Op::Store:
+    case Op::LoadElement:
+    case Op::StoreElement:
+      access(instruction.index);
+      break;
+    case Op::Call:
+      for (const ir::VariableId variable : instruction.variables)
+        access(variable);
+      break;
+    case Op::Loop:
+    case Op::Scope:
+      facts_.labels[instruction.index].varying = varying(id);
+      targets_.push_back(instruction.index);
+      walk(instruction.blocks[0]);
+      targets_.pop_back();
+      break;
+    case Op::If:
+      for (const ir::Block& block : instruction.blocks)
+        walk(block);
+      break;
+    case Op::Break:
+      if (varying(id)) bypass(instruction.index);
+      break;
+    case Op::Return:
+      facts_.function.varying = facts_.function.varying || varying(id);
+      if (varying(id)) bypass(ir::kNone);
+      break;
+    default:
+      break;
+    }
+  }
+
+  void bypass(ir::LabelId target) {
+    for (size_t i = targets_.size(); i-- > 0 && targets_[i] != target;)
+      facts_.labels[targets_[i]].bypassed = true;
+  }
+
+  void access(ir::VariableId variable) {
+    auto& home = homes_[variable];
+    if (home.empty()) {
+      home = path_;
+      return;
+    }
+    size_t common = 0;
+    while (common < home.size() && common < path_.size() && home[common] == path_[common])
+      ++common;
+    home.resize(common);
+  }
+
+  const ir::Function& function_;
+  FunctionFacts& facts_;
+  std::vector<const ir::Block*> path_;
+  std::vector<ir::LabelId> targets_;
+};
+
+/// Visits every function after those it calls.
+class CalleesFirst {
+public:
+  explicit CalleesFirst(const ir::Module& module) : module_(module), seen_(module.functions.size()) {
+    for (ir::FunctionId id = 0; id < module.functions.size(); ++id)
+      visit(id);
+  }
+  std::vector<ir::FunctionId> order;
+
+private:
+  void visit(ir::FunctionId id) {
+    if (seen_[id]) return;
+    seen_[id] = true;
+    const ir::Function& function = module_.functions[id];
+    each_instruction(function, function.body, [&](const ir::Instruction& instruction) {
+      if (instruction.op == Op::Call) visit(instruction.index);
+    });
+    order.push_back(id);
+  }
+  const ir::Module& module_;
+  std::vector<bool> seen_;
+};
+
+} // namespace
+
+FunctionFacts function_facts(const ir::Function& function, const ir::Uniformity& uniformity) {
+  FunctionFacts facts;
+  facts.uniformity = &uniformity;
+  facts.labels.resize(function.next_label);
+  facts.homes.resize(function.variables.size());
+  FactsWalk walk(function, facts);
+  walk.homes_.resize(function.variables.size());
+  walk.walk(function.body);
+  walk.finish();
+  std::fill_n(facts.homes.begin(), function.captures, nullptr);
+  return facts;
+}
+
+uint64_t block_size(const ir::Function& function, const ir::Block& block) {
+  uint64_t size = 0;
+  each_instruction(function, block, [&](const ir::Instruction&) { ++size; });
+  return size;
+}
+
+SizePlan plan_sizes(const ir::Module& module) {
+  const size_t count = module.functions.size();
+  SizePlan plan{std::vector<uint64_t>(count), std::vector<bool>(count)};
+  std::vector<uint64_t> uses(count);
+  for (const ir::Function& function : module.functions)
+    each_instruction(function, function.body, [&](const ir::Instruction& instruction) {
+      if (instruction.op == Op::Call) ++uses[instruction.index];
+    });
+  for (const ir::FunctionId id : CalleesFirst(module).order) {
+    const ir::Function& function = module.functions[id];
+    each_instruction(function, function.body, [&](const ir::Instruction& instruction) {
+      const bool in_place = instruction.op == Op::Call && !plan.outlined[instruction.index];
+      plan.size[id] += in_place ? plan.size[instruction.index] : 1;
+    });
+    plan.outlined[id] = uses[id] > 1 && plan.size[id] > 8 && plan.size[id] * uses[id] > kInlineBudget;
+  }
+  return plan;
+}
+
+std::vector<FaultFacts> fault_facts(const ir::Module& module) {
+  std::vector<FaultFacts> facts(module.functions.size());
+  for (const ir::FunctionId id : CalleesFirst(module).order) {
+    const ir::Function& function = module.functions[id];
+    each_instruction(function, function.body, [&](const ir::Instruction& instruction) {
+      if (instruction.op == Op::Fault) facts[id].faults = true;
+      if (instruction.op == Op::Step) facts[id].steps = true;
+      if (instruction.op != Op::Call) return;
+      facts[id].faults |= facts[instruction.index].faults;
+      facts[id].steps |= facts[instruction.index].steps;
+    });
+  }
+  return facts;
+}
+
+} // namespace moonshade::codegen

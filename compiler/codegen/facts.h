@@ -1,0 +1,41 @@
+// What emission must know of a function of the IR before it begins: from the uniformity analysis, how lanes leave its
+// constructs; and for each variable its home, the innermost block that holds all its accesses.
+#pragma once
+
+#include "compiler/codegen/masks.h"
+#include "compiler/ir/ir.h"
+#include "compiler/ir/uniformity.h"
+
+#include <vector>
+
+namespace moonshade::codegen {
+
+struct FunctionFacts {
+  const ir::Uniformity* uniformity = nullptr;
+  std::vector<TargetFacts> labels; ///< by LabelId
+  TargetFacts function;
+  /// By VariableId; null: a capture, or never accessed.
+  std::vector<const ir::Block*> homes;
+};
+
+FunctionFacts function_facts(const ir::Function& function, const ir::Uniformity& uniformity);
+
+/// Instructions of the IR that a call of each function comes to when its callees are emitted in place, and which
+/// functions are too big for that and get LLVM functions of their own.
+struct SizePlan {
+  std::vector<uint64_t> size;
+  std::vector<bool> outlined;
+};
+SizePlan plan_sizes(const ir::Module& module);
+
+/// Whether any point could fault: whether a `fault` or a `step` stands in what `function` runs.
+struct FaultFacts {
+  bool faults = false;
+  bool steps = false;
+};
+std::vector<FaultFacts> fault_facts(const ir::Module& module);
+
+/// Instructions in a block and in those nested there.
+uint64_t block_size(const ir::Function& function, const ir::Block& block);
+
+} // namespace moonshade::codegen

@@ -1,0 +1,75 @@
+// Links the library's bitcode, lazily (link.h). The bitcode is optimised already.
+#include "compiler/codegen/link.h"
+
+#include <llvm/Bitcode/BitcodeReader.h>
+#include <llvm/Linker/Linker.h>
+#include <llvm/Support/Error.h>
+#include <llvm/Support/MemoryBuffer.h>
+
+namespace moonshade::codegen {
+
+namespace {
+
+/// A library function of more instructions than this in all its places of use is called rather than inlined.
+constexpr size_t kInlineBudget = 4000;
+
+bool is_export_of(const llvm::Function& function, unsigned width) {
+  return function.isDeclaration() && function.getName().starts_with("ms_") &&
+         function.getName().ends_with("_w" + std::to_string(width));
+}
+
+bool needs_width(const llvm::Module& module, unsigned width) {
+  for (const llvm::Function& function : module)
+    if (is_export_of(function, width)) return true;
+  return false;
+}
+
+void link_width(llvm::Module& module, Precision precision, unsigned width, std::string& error) {
+  if (!needs_width(module, width)) return;
+  const std::span<const char> bitcode = library_bitcode(precision, width);
+  const llvm::MemoryBufferRef buffer(llvm::StringRef(bitcode.data(), bitcode.size()), "library");
+  auto library = llvm::getLazyBitcodeModule(buffer, module.getContext());
+  if (!library) {
+    error = "the library's bitcode cannot be read: " + llvm::toString(library.takeError());
+    return;
+  }
+  (*library)->setTargetTriple(module.getTargetTriple());
+  (*library)->setDataLayout(module.getDataLayout());
+  if (llvm::Linker::linkModules(module, std::move(*library), llvm::Linker::LinkOnlyNeeded))
+    error = "the library's bitcode cannot be linked";
+}
+
+size_t uses(const llvm::Function& function) { return function.getNumUses(); }
+
+} // namespace
+
+void link_library(llvm::Module& module, const Domain& domain, const FunctionAttributes& attributes,
+                  std::string& error) {
+  std::vector<std::string> own;
+  for (const llvm::Function& function : module)
+    if (!function.isDeclaration()) own.push_back(function.getName().str());
+  link_width(module, domain.precision, domain.width, error);
+  if (domain.width != 1 && error.empty()) link_width(module, domain.precision, 1, error);
+  if (!error.empty()) return;
+  const std::set<std::string> known(own.begin(), own.end());
+  for (llvm::GlobalVariable& variable : module.globals())
+    if (!variable.isDeclaration()) variable.setLinkage(llvm::GlobalValue::InternalLinkage);
+  for (llvm::Function& function : module) {
+    if (function.isDeclaration()) {
+      if (function.getName().starts_with("ms_")) error = "the library has no " + function.getName().str();
+      continue;
+    }
+    if (known.contains(function.getName().str())) continue;
+    function.setLinkage(llvm::GlobalValue::InternalLinkage);
+    function.setComdat(nullptr);
+    attributes.apply(function);
+    const size_t size = function.getInstructionCount();
+    const bool in_place = uses(function) <= 1 || size * uses(function) <= kInlineBudget;
+    function.removeFnAttr(llvm::Attribute::NoInline);
+    function.removeFnAttr(llvm::Attribute::OptimizeNone);
+    function.removeFnAttr(llvm::Attribute::AlwaysInline);
+    function.addFnAttr(in_place ? llvm::Attribute::AlwaysInline : llvm::Attribute::NoInline);
+  }
+}
+
+} // namespace moonshade::codegen

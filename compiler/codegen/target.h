@@ -1,0 +1,36 @@
+// The machine that code is made for: LLVM's TargetMachine for a triple and CPU, with strict floating point.
+// The native machine's features come from CPUID, not from the CPU's name: virtual machines mask the model.
+#pragma once
+
+#include "stdlib/library.h"
+
+#include <llvm/Target/TargetMachine.h>
+
+#include <memory>
+#include <string>
+
+namespace moonshade::codegen {
+
+struct TargetOptions {
+  std::string cpu = "native"; ///< "native" or a name of LLVM's
+  std::string triple;         ///< empty: this machine's
+  int optimization = 2;       ///< 0 to 3
+};
+
+struct Target {
+  std::unique_ptr<llvm::TargetMachine> machine;
+  std::string cpu;
+  std::string features;
+  unsigned vector_bits = 128; ///< of the widest registers that are worth using
+  bool native = false;        ///< code for it runs here
+  std::string error;          ///< set where there is no such machine
+};
+
+Target make_target(const TargetOptions& options);
+
+/// The lane count that suits the target best: one machine vector of the precision's numbers.
+unsigned best_width(const Target& target, Precision precision);
+/// The same for this machine.
+unsigned native_width(Precision precision);
+
+} // namespace moonshade::codegen
