@@ -4,7 +4,9 @@
 #include "runtime/interpret_state.h"
 
 #include "stdlib/lua_module.h"
+#include "stdlib/lua_vector.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -108,7 +110,8 @@ void watch_instructions(lua_State* lua, lua_Debug*) {
 
 FaultCode classify(const char* message) {
   const auto says = [&](const char* part) { return std::strstr(message, part) != nullptr; };
-  if (says("attempt to perform 'n//0'") || says("attempt to perform 'n%%0'")) return FaultCode::DivideByZero;
+  if (says("attempt to perform 'n//0'") || says("attempt to divide by zero")) return FaultCode::DivideByZero;
+  if (says("attempt to perform 'n%%0'") || says("attempt to perform 'n%0'")) return FaultCode::DivideByZero;
   if (says("bad argument #2 to 'fmod' (zero)")) return FaultCode::DivideByZero;
   if (says("'for' step is zero")) return FaultCode::ForStepZero;
   if (says("number has no integer representation")) return FaultCode::IntegerRange;
@@ -125,6 +128,21 @@ int note_error(lua_State* lua) {
   record.line = current_line(lua);
   std::snprintf(record.message, sizeof record.message, "%s", record.code == FaultCode::Error ? message : "");
   return 1;
+}
+
+/// Lua 5.4.4 does not save where it is before // and % of integers, so for their errors it tells the line of something
+/// that ran earlier: the division is taken to be the next one in the text.
+uint32_t line_of_division(std::string_view text, uint32_t told) {
+  uint32_t line = 1;
+  for (size_t begin = 0; begin < text.size(); ++line) {
+    const size_t end = std::min(text.find('\n', begin), text.size());
+    std::string_view code = text.substr(begin, end - begin);
+    code = code.substr(0, code.find("--"));
+    const bool divides = code.find("//") != code.npos || code.find('%') != code.npos || code.find("fmod") != code.npos;
+    if (line >= told && divides) return line;
+    begin = end + 1;
+  }
+  return told;
 }
 
 constexpr int kHandler = 1; // its place on the stack, below everything else
@@ -192,7 +210,7 @@ void push_constant(lua_State* lua, const Constant& constant) {
   else if (const double* number = std::get_if<double>(&constant))
     lua_pushnumber(lua, *number);
   else if (const auto* vector = std::get_if<std::vector<double>>(&constant))
-    stdlib::push_lua_vector(lua, vector->data(), unsigned(vector->size()));
+    push_vector(lua, *vector);
   else
     lua_pushlstring(lua, std::get<std::string>(constant).data(), std::get<std::string>(constant).size());
 }
@@ -229,16 +247,18 @@ bool InterpretState::load(std::string& error) {
     const auto& source = *static_cast<const InterpretSource*>(lua_touserdata(lua, 1));
     open_basics(lua);
     open_math(lua);
-    stdlib::luaopen_moonshade(lua);
+    luaL_requiref(lua, "moonshade", luaopen_moonshade, 0);
+    lua_pop(lua, 1);
     open_steps(lua);
     for (const auto& [name, value] : source.parameters) {
       push_constant(lua, value);
-      stdlib::set_lua_parameter(lua, name.c_str());
+      override_parameter(lua, name.c_str());
     }
     const std::string& text = source.loaded;
     if (luaL_loadbufferx(lua, text.data(), text.size(), "=shader", "t") != LUA_OK) return lua_error(lua);
     lua_call(lua, 0, 0);
     lua_settop(lua, 0);
+    luaL_checkstack(lua, int(source.info.entries.size()), "too many entry points");
     for (const EntryInfo& entry : source.info.entries)
       lua_getglobal(lua, entry.name.c_str());
     return int(source.info.entries.size());
@@ -254,7 +274,11 @@ bool InterpretState::load(std::string& error) {
   return false;
 }
 
-InterpretFault InterpretState::last_fault() const { return {record_->code, record_->line, record_->message}; }
+InterpretFault InterpretState::last_fault() const {
+  const bool divides = record_->code == FaultCode::DivideByZero;
+  const uint32_t line = divides ? line_of_division(source_.text, record_->line) : record_->line;
+  return {record_->code, line, record_->message};
+}
 
 FaultCode InterpretState::call(size_t index, const Batch& batch, uint64_t row) {
   const EntryInfo& entry = source_.info.entries[index];
@@ -283,10 +307,9 @@ void InterpretState::push_inputs(const EntryInfo& entry, const Batch& batch, uin
     else if (input.type == ValueType::Number)
       lua_pushnumber(lua_, static_cast<const double*>(*column)[row]);
     else {
-      double components[16];
+      double* components = push_new_vector(lua_, component_count(input.type));
       for (unsigned i = 0; i < component_count(input.type); ++i)
         components[i] = static_cast<const double*>(column[i])[row];
-      stdlib::push_lua_vector(lua_, components, component_count(input.type));
     }
     column += component_count(input.type);
   }
@@ -306,8 +329,8 @@ FaultCode InterpretState::store_results(const EntryInfo& entry, const Batch& bat
       if (lua_type(lua_, at) != LUA_TNUMBER) return wrong_result(at);
       static_cast<double*>(*column)[row] = lua_tonumber(lua_, at);
     } else {
-      const double* components = stdlib::lua_vector(lua_, at, component_count(type));
-      if (!components) return wrong_result(at);
+      const std::span<const double> components = vector_at(lua_, at);
+      if (components.size() != component_count(type)) return wrong_result(at);
       for (unsigned i = 0; i < component_count(type); ++i)
         static_cast<double*>(column[i])[row] = components[i];
     }

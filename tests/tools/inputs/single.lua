@@ -1,0 +1,1 @@
+function height(p) return p.y end
