@@ -87,6 +87,10 @@ void Generator::put(std::string_view token) {
 }
 
 void Generator::gap() {
+  if (!has_line_breaks_) {
+    out_ += chance(98) ? " " : " --[[ comment ]] ";
+    return;
+  }
   switch (below(40)) {
   case 0:
     out_ += "\n";
@@ -119,6 +123,56 @@ std::string Generator::program() {
   if (chance(2)) out_ = "#!/usr/bin/lua x\n";
   block(4);
   return out_;
+}
+
+std::string Generator::program_on_one_line() {
+  out_.clear();
+  loops_ = 0;
+  is_vararg_ = true;
+  has_line_breaks_ = false;
+  block(4);
+  has_line_breaks_ = true;
+  return out_;
+}
+
+std::string Generator::program_of_jumps() {
+  out_.clear();
+  has_line_breaks_ = false;
+  jumps(4);
+  has_line_breaks_ = true;
+  return out_;
+}
+
+void Generator::jumps(int depth) {
+  for (unsigned i = below(5); i > 0; --i)
+    jump_stat(depth);
+}
+
+void Generator::jump_stat(int depth) {
+  switch (below(depth > 0 ? 13 : 9)) {
+  case 0:
+  case 1:
+  case 2:
+    return put("goto"), put(pick(kLabels));
+  case 3:
+  case 4:
+  case 5:
+    return put("::"), put(pick(kLabels)), put("::");
+  case 6:
+    return put("local"), put(pick(kNames));
+  case 7:
+    return put(";");
+  case 8:
+    return put("f()");
+  case 9:
+    return put("repeat"), jumps(depth - 1), put("until"), put(pick(kNames));
+  case 10:
+    return put("if a then"), jumps(depth - 1), put(chance(50) ? "else" : "elseif b then"), jumps(depth - 1), put("end");
+  case 11:
+    return put(chance(80) ? "do" : "local function f()"), jumps(depth - 1), put("end");
+  default:
+    return put(chance(50) ? "while a do" : "for b = 1, 2 do"), jumps(depth - 1), put("end");
+  }
 }
 
 void Generator::block(int depth) {
@@ -351,7 +405,7 @@ std::string Generator::numeral() {
 }
 
 std::string Generator::string_literal() {
-  if (chance(15)) {
+  if (has_line_breaks_ && chance(15)) {
     const std::string level(below(3), '=');
     const std::string_view content = pick(std::to_array<Pool>({"", "x]y", "\nabc", "a\r\nb\rc\n\rd", "\\n", "\r\r"}));
     return "[" + level + "[" + std::string(content) + "]" + level + "]";

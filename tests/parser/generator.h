@@ -16,6 +16,10 @@ public:
   explicit Generator(uint64_t seed) : random_(seed) {}
 
   std::string program();
+  /// Without a line break.
+  std::string program_on_one_line();
+  /// Little but blocks, locals, labels and gotos.
+  std::string program_of_jumps();
   std::string token_stream();
   std::string mutated(std::string_view program);
   std::string numeral();
@@ -30,6 +34,8 @@ private:
   void put(std::string_view token);
   void gap();
 
+  void jumps(int depth);
+  void jump_stat(int depth);
   void block(int depth);
   void stat(int depth);
   void loop(int depth);
@@ -47,6 +53,7 @@ private:
   std::mt19937_64 random_;
   std::string out_;
   int loops_ = 0;
+  bool has_line_breaks_ = true;
   bool is_vararg_ = true;
 };
 

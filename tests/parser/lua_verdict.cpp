@@ -53,6 +53,19 @@ Lua::Result Lua::load(std::string_view text) {
   return result;
 }
 
+std::string Lua::code(std::string_view text) {
+  lua_State* lua = state_.get();
+  std::string code;
+  const auto append = [](lua_State*, const void* bytes, size_t size, void* out) {
+    static_cast<std::string*>(out)->append(static_cast<const char*>(bytes), size);
+    return 0;
+  };
+  const std::string_view body = without_first_line(text);
+  if (luaL_loadbufferx(lua, body.data(), body.size(), "=t", "t") == LUA_OK) lua_dump(lua, append, &code, 1);
+  lua_settop(lua, 0);
+  return code;
+}
+
 Lua::Value Lua::literal(std::string_view literal) {
   lua_State* lua = state_.get();
   const std::string text = "return " + std::string(literal);

@@ -24,6 +24,10 @@ public:
   /// As `luac -p` reads a file: a byte order mark and a first line that begins with '#' are skipped.
   Result load(std::string_view text);
 
+  /// The compiled code without its debugging information; empty where the text does not load. Line numbers of
+  /// functions stay in it.
+  std::string code(std::string_view text);
+
   using Value = std::variant<std::monostate, long long, double, std::string>;
   /// The value of `return LITERAL`; monostate where it does not load.
   Value literal(std::string_view literal);

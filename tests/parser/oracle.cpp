@@ -1,5 +1,6 @@
 // ms_parser_oracle: the parser and the reference implementation must give the same verdict, capacity aside, on a corpus
-// and on generated inputs; literals must have the same value; every tree must keep its invariants.
+// and on generated inputs; what both accept must compile to the same code (unparse.h); literals must have the same
+// value; every tree must keep its invariants.
 //
 //     ms_parser_oracle [--inputs=N] [--seed=S] [--corpus=DIR] [--keep-going]
 //
@@ -8,6 +9,7 @@
 #include "check_tree.h"
 #include "generator.h"
 #include "lua_verdict.h"
+#include "unparse.h"
 
 #include "compiler/syntax/parser.h"
 
@@ -29,7 +31,8 @@ struct Options {
 };
 
 struct Counts {
-  uint64_t compared = 0, accepted = 0, refused = 0, set_aside = 0, same_line = 0, literals = 0, failures = 0;
+  uint64_t compared = 0, accepted = 0, refused = 0, set_aside = 0, same_line = 0, same_code = 0, literals = 0,
+           failures = 0;
 };
 
 class Oracle {
@@ -42,10 +45,11 @@ public:
       run_generated(i);
     for (uint64_t i = 0; i < options_.inputs / 5 && !must_stop(); ++i)
       compare_literals();
-    std::cout << counts_.compared << " inputs: " << counts_.accepted << " accepted by both, " << counts_.refused
-              << " refused by both (" << counts_.same_line << " of them first at the same line), " << counts_.set_aside
-              << " set aside for capacity; " << counts_.literals << " literals; " << counts_.failures
-              << " disagreements (seed " << options_.seed << ")\n";
+    std::cout << counts_.compared << " inputs: " << counts_.accepted << " accepted by both (" << counts_.same_code
+              << " of them compared as compiled code), " << counts_.refused << " refused by both (" << counts_.same_line
+              << " of them first at the same line), " << counts_.set_aside << " set aside for capacity; "
+              << counts_.literals << " literals; " << counts_.failures << " disagreements (seed " << options_.seed
+              << ")\n";
     const bool is_vacuous =
         options_.inputs > 1000 && (counts_.accepted < options_.inputs / 10 || counts_.refused < options_.inputs / 10);
     if (is_vacuous) std::cout << "too few inputs of one verdict to mean anything\n";
@@ -91,17 +95,21 @@ private:
   }
 
   void run_generated(uint64_t index) {
-    switch (index % 4) {
+    switch (index % 6) {
     case 0:
       last_program_ = generator_.program();
       return compare(last_program_);
     case 1:
       return compare(generator_.token_stream());
     case 2:
+      return compare(generator_.program_on_one_line());
+    case 3:
+      return compare(generator_.program_of_jumps());
+    case 4:
       return compare(generator_.mutated(last_program_));
     default:
       if (valid_.empty()) return compare(generator_.mutated(last_program_));
-      return compare(generator_.mutated(valid_[index / 4 % valid_.size()]));
+      return compare(generator_.mutated(valid_[index / 6 % valid_.size()]));
     }
   }
 
@@ -123,10 +131,19 @@ private:
                                            : "accepted, but the reference implementation says: " + lua.message);
     } else if (lua.verdict == Verdict::Accepts) {
       ++counts_.accepted;
+      compare_code(input, *chunk);
     } else {
       ++counts_.refused;
       counts_.same_line += sources.line_of(diagnostics.sorted().front()->span) == static_cast<uint32_t>(lua.line);
     }
+  }
+
+  /// The tree, written as Lua, compiles to the same code. Line numbers would differ, so only for inputs of one line.
+  void compare_code(const std::string& input, const syntax::Chunk& chunk) {
+    if (input.find_first_of("\r\n") != std::string::npos) return;
+    ++counts_.same_code;
+    const std::string written = unparse(chunk);
+    if (lua_.code(input) != lua_.code(written)) fail(input, "the tree means something else: " + written);
   }
 
   static bool is_too_large(const Diagnostics& diagnostics) {
