@@ -41,8 +41,10 @@ struct Type {
   /// A number that stock Lua may hold as an integer (both were given to it): the same at run time, but `//`, `%` and
   /// math.type of it are refused. `is(Number)` holds.
   bool mixed = false;
+  /// A string whose text is a parameter of the shader, so not known while compiling.
+  bool is_parameter = false;
 
-  static Type of(ValueType value) { return {Kind::Value, value, nullptr, {}, false}; }
+  static Type of(ValueType value) { return {Kind::Value, value, nullptr, {}, false, false}; }
   bool is_value() const { return kind == Kind::Value; }
   bool is(ValueType other) const { return kind == Kind::Value && value == other; }
   bool operator==(const Type&) const = default;
@@ -86,15 +88,15 @@ enum class OperatorForm : uint8_t {
 
 /// Facts about an expression node.
 struct ExpressionFact {
-  Type type;                   ///< of its (first) value
-  std::vector<Type> results;   ///< of a call: all results
+  Type type;                 ///< of its (first) value
+  std::vector<Type> results; ///< of a call: all results
   NameKind name = NameKind::Local;
-  uint32_t index = 0;          ///< Global slot; parameter
-  double constant = 0;         ///< NameKind::Constant of type number
+  uint32_t index = 0;           ///< Global slot; parameter
+  double constant = 0;          ///< NameKind::Constant of type number
   int64_t integer_constant = 0; ///< NameKind::Constant of type integer
   CallKind call = CallKind::Specialisation;
   Specialisation* callee = nullptr;
-  const LibraryFunction* library = nullptr; ///< CallKind::Library and ToInteger; operators given by a row "op.*"
+  const LibraryFunction* library = nullptr;   ///< CallKind::Library and ToInteger; operators given by a row "op.*"
   ValueType operand_type = ValueType::Number; ///< operators: type to which both operands are converted first
   OperatorForm form = OperatorForm::Plain;
   std::vector<uint8_t> components; ///< component access and swizzles (`v.x`, `v.zyx`, `v[1]`): indices from 0
@@ -109,17 +111,17 @@ struct LocalFact {
 struct Specialisation {
   uint32_t id = 0;
   const syntax::Function* function = nullptr;
-  std::string name;                  ///< for messages and the IR: "height", "falloff#2"
+  std::string name; ///< for messages and the IR: "height", "falloff#2"
   /// Of the arguments as passed: a parameter to which the body gives a number too may be an integer here and a number
   /// in `locals` (converted on entry). String parameters have no storage and are not passed at run time. A call may
   /// have more arguments than these; the rest is evaluated and dropped.
   std::vector<Type> parameters;
-  std::vector<Type> results;         ///< converted to by every return
+  std::vector<Type> results; ///< converted to by every return
   /// Variables of enclosing functions (not the top level) that this function or those it calls use, by reference, in
   /// the order of the IR function's captures. A caller passes its own variable, or its own capture, of the same local.
   std::vector<const syntax::Local*> captures;
-  std::unordered_map<uint32_t, ExpressionFact> expressions;            ///< by Expr::id
-  std::unordered_map<const syntax::Local*, LocalFact> locals;          ///< own and captured
+  std::unordered_map<uint32_t, ExpressionFact> expressions;   ///< by Expr::id
+  std::unordered_map<const syntax::Local*, LocalFact> locals; ///< own and captured
   /// Top-level locals that have a Global slot (the top level stores them there, functions load them).
 };
 

@@ -1,5 +1,5 @@
-// What a host may know of a checked shader: its entry points, parameters, modules and images. The same facts serve the compiled
-// shader, the interpreted one and `shaderc --describe`.
+// What a host may know of a checked shader: its entry points, parameters, modules and images. The same facts serve the
+// compiled shader, the interpreted one and `shaderc --describe`.
 #pragma once
 
 #include "compiler/base/source.h"
@@ -29,8 +29,8 @@ struct EntryInfo {
 /// `param(name, default, meta)`.
 struct ParameterInfo {
   std::string name;
-  Span span{};                     ///< of the call
-  std::optional<ValueType> type;   ///< nothing for a string parameter
+  Span span{};                   ///< of the call
+  std::optional<ValueType> type; ///< nothing for a string parameter
   Constant default_value;
   std::optional<double> min, max, step;
   std::string doc, label;

@@ -1,0 +1,267 @@
+// Calls: of the shader's functions, which are specialised for the types of their arguments, and of what the compiler
+// itself knows of the library. The library's table is library_calls.cpp's matter.
+#include "compiler/sema/names.h"
+#include "compiler/sema/walker.h"
+
+#include <algorithm>
+
+namespace moonshade::sema {
+
+using namespace syntax;
+using Code = DiagnosticCode;
+
+namespace {
+
+TypeList one(const Type& type) { return {{type}, false}; }
+TypeList unknown_values() { return {{}, true}; }
+
+/// What messages call a function.
+std::string spoken_name(const Function& function) {
+  return function.name.empty() ? "function" : std::string(function.name);
+}
+
+} // namespace
+
+TypeList Walker::arguments(std::span<Expr* const> args) {
+  TypeList list = expression_list(args);
+  for (size_t i = 0; i < list.types.size(); ++i) {
+    Type& type = list.types[i];
+    if (type.kind != Type::Kind::Function && type.kind != Type::Kind::Library && type.kind != Type::Kind::None)
+      continue;
+    const Expr& arg = *args[std::min(i, args.size() - 1)];
+    if (type.kind != Type::Kind::None) error(Code::NotAvailableYet, arg.span, {"functions as arguments are"});
+    type = unknown_type();
+  }
+  return list;
+}
+
+TypeList Walker::call(const CallExpr& expr) {
+  const Type callee = expression(*expr.callee);
+  switch (callee.kind) {
+  case Type::Kind::Function:
+    return call_function(expr, *callee.function);
+  case Type::Kind::Library:
+    if (callee.text != "math") return call_library(expr, callee.text);
+    break;
+  case Type::Kind::Unknown:
+    expression_list(expr.args);
+    return unknown_values();
+  default:
+    break;
+  }
+  expression_list(expr.args);
+  type_error(Code::NotCallable, expr.callee->span, {describe(callee)});
+  return unknown_values();
+}
+
+bool Walker::is_recursive(const CallExpr& expr, const Function& function) {
+  const Work* at = &work_;
+  std::vector<const Work*> chain;
+  while (at != nullptr && at->function != &function) {
+    chain.push_back(at);
+    at = at->caller;
+  }
+  if (at == nullptr) return false;
+  if (!context_.report || !context_.recursions.insert({work_.function, &function}).second) return true;
+  std::string text = spoken_name(function);
+  for (auto link = chain.rbegin(); link != chain.rend(); ++link)
+    text += " calls " + spoken_name(*(*link)->function);
+  Diagnostic& diagnostic = error(Code::Recursion, expr.span, {text + " calls " + spoken_name(function)});
+  for (auto link = chain.rbegin(); link != chain.rend(); ++link)
+    diagnostic.note(Code::NoteCalledFrom, (*link)->call_span, {spoken_name(*(*link)->function)});
+  return true;
+}
+
+TypeList Walker::call_function(const CallExpr& expr, const Function& function) {
+  TypeList args = arguments(expr.args);
+  if (is_recursive(expr, function)) return unknown_values();
+  if (function.is_vararg) return unknown_values(); // refused where it is defined
+  const size_t count = function.params.size();
+  if (!args.open && args.types.size() < count) {
+    const size_t missing = args.types.size();
+    type_error(Code::MissingArgument, expr.span,
+               {std::to_string(missing + 1), spoken_name(function), std::string(function.params[missing]->name)});
+    return unknown_values();
+  }
+  args.types.resize(count);
+  if (!context_.specialise_unknown && std::ranges::any_of(args.types, is_unknown)) return unknown_values();
+
+  Work* callee = context_.find_or_make(&function, lexical_owner(function.parent), args.types, expr.span);
+  if (callee == nullptr) return unknown_values();
+  if (callee->round != context_.round) {
+    callee->caller = &work_;
+    callee->call_span = expr.span;
+    context_.analyse(*callee);
+  }
+  TypeList results;
+  if (callee->has_results) results.types = callee->results;
+  if (context_.report && callee->spec != nullptr) {
+    work_.callees[expr.id] = callee;
+    ExpressionFact fact;
+    fact.type = results.at(0);
+    fact.results = results.types;
+    fact.call = CallKind::Specialisation;
+    fact.callee = callee->spec;
+    record(expr, std::move(fact));
+  }
+  return results;
+}
+
+TypeList Walker::call_library(const CallExpr& expr, std::string_view name) {
+  if (name == "param") return parameter(expr);
+  if (name == "assert" || name == "error") return assert_or_error(expr, name == "assert");
+  if (name == "vec2" || name == "vec3" || name == "vec4" || name == "rgb") return construct(expr, name);
+  if (name == "math.floor" || name == "math.ceil" || name == "math.tointeger") return to_integer(expr, name);
+  if (name == "math.type") return math_type(expr);
+  const TypeList types = arguments(expr.args);
+  if (types.open) return unknown_values();
+  return call_table_row(expr, name, {expr.args.begin(), expr.args.end()}, types.types);
+}
+
+TypeList Walker::method_call(const MethodCallExpr& expr) {
+  const Type object = expression(*expr.object);
+  TypeList types = arguments(expr.args);
+  if (is_unknown(object)) return unknown_values();
+  if (object.kind == Type::Kind::String) {
+    error(Code::StringBuilding, expr.span, {"the library 'string'"});
+    return unknown_values();
+  }
+  if (!is_vector(object)) {
+    type_error(Code::OperandType, expr.object->span, {":" + std::string(expr.method.text), describe(object)});
+    return unknown_values();
+  }
+  std::vector<std::string_view> methods;
+  bool is_method = false;
+  for (const LibraryFunction& row : library()) {
+    if (row.parameter_count == 0 || row.name.find('.') != std::string_view::npos) continue;
+    if (!is_vector(row.parameters[0]) && !row.componentwise) continue;
+    methods.push_back(row.name);
+    is_method = is_method || row.name == expr.method.text;
+  }
+  if (!is_method) {
+    if (context_.report) {
+      const RefusedName* refused = find_refused_name(expr.method.text);
+      if (refused != nullptr && refused->code == Code::NotAvailableYet) {
+        refuse_name(expr.method.span, expr.method.text);
+      } else {
+        type_error(Code::UnknownMethod, expr.method.span,
+                   {std::string(expr.method.text), type_name(object), suggestion(expr.method.text, methods)});
+      }
+    }
+    return unknown_values();
+  }
+  if (types.open) return unknown_values();
+  types.types.insert(types.types.begin(), object);
+  std::vector<const Expr*> args = {expr.object};
+  args.insert(args.end(), expr.args.begin(), expr.args.end());
+  return call_table_row(expr, expr.method.text, args, types.types);
+}
+
+// ---- what the compiler itself knows --------------------------------------------------------------------------------
+
+TypeList Walker::construct(const CallExpr& expr, std::string_view name) {
+  const unsigned size = name == "vec2" ? 2 : name == "vec4" ? 4 : 3;
+  const Type result = Type::of(vector_type(size));
+  const TypeList args = arguments(expr.args);
+  unsigned components = 0;
+  bool is_known = !args.open;
+  for (size_t i = 0; i < args.types.size(); ++i) {
+    const Type& type = args.types[i];
+    if (is_scalar(type) || is_vector(type)) {
+      components += component_count(type.value);
+    } else {
+      if (!is_unknown(type))
+        type_error(Code::ArgumentType, expr.args[std::min(i, expr.args.size() - 1)]->span,
+                   {std::to_string(i + 1), std::string(name), describe(type), "a number or a vector"});
+      is_known = false;
+    }
+  }
+  if (!is_known) return one(result);
+  const bool is_broadcast = args.types.size() == 1 && is_scalar(args.types[0]);
+  if (components != size && !is_broadcast) {
+    type_error(Code::ConstructorComponents, expr.span,
+               {std::string(name), std::to_string(size), std::to_string(components)});
+    return one(result);
+  }
+  ExpressionFact fact;
+  fact.type = result;
+  fact.results = {result};
+  fact.call = CallKind::Construct;
+  return one(record(expr, std::move(fact)));
+}
+
+TypeList Walker::to_integer(const CallExpr& expr, std::string_view name) {
+  const TypeList args = arguments(expr.args);
+  if (args.open || (args.types.size() == 1 && is_unknown(args.types[0]))) return one(integer_type());
+  if (args.types.empty()) {
+    type_error(Code::MissingArgument, expr.span, {"1", std::string(name), "x"});
+    return one(integer_type());
+  }
+  if (args.types.size() > 1) {
+    error(Code::TooManyArguments, expr.args[std::min<size_t>(1, expr.args.size() - 1)]->span, {std::string(name), "1"});
+    return one(integer_type());
+  }
+  const Type& type = args.types[0];
+  if (!is_scalar(type)) {
+    type_error(Code::ArgumentType, expr.args[0]->span, {"1", std::string(name), describe(type), "a number"});
+    return one(integer_type());
+  }
+  ExpressionFact fact;
+  fact.type = integer_type();
+  fact.results = {fact.type};
+  fact.call = type.is(ValueType::Integer) ? CallKind::Convert : CallKind::ToInteger;
+  if (fact.call == CallKind::ToInteger) {
+    const auto rows = library_overloads(name == "math.tointeger" ? "op.toint" : name);
+    for (const LibraryFunction& row : rows)
+      if (row.parameter_count == 1 && row.parameters[0] == ValueType::Number) fact.library = &row;
+    if (fact.library == nullptr)
+      error(Code::NotAvailableYet, expr.span, {"'" + std::string(name) + "' of a number is"});
+  }
+  return one(record(expr, std::move(fact)));
+}
+
+TypeList Walker::math_type(const CallExpr& expr) {
+  const TypeList args = arguments(expr.args);
+  if (args.open || args.types.size() != 1 || is_unknown(args.types[0])) {
+    if (!args.open && args.types.empty()) type_error(Code::MissingArgument, expr.span, {"1", "math.type", "x"});
+    return one(unknown_type());
+  }
+  const Type& type = args.types[0];
+  if (type.mixed) {
+    refuse_mixed(*expr.args[0], "math.type");
+    return one(unknown_type());
+  }
+  if (!is_scalar(type)) {
+    type_error(Code::ArgumentType, expr.args[0]->span, {"1", "math.type", describe(type), "a number"});
+    return one(unknown_type());
+  }
+  const Type result = string_type(type.is(ValueType::Integer) ? "integer" : "float");
+  return one(record(expr, result));
+}
+
+TypeList Walker::assert_or_error(const CallExpr& expr, bool is_assert) {
+  const std::string name = is_assert ? "assert" : "error";
+  std::vector<Type> types;
+  for (const Expr* arg : expr.args)
+    types.push_back(expression(*arg));
+  const size_t message = is_assert ? 1 : 0;
+  if (is_assert) {
+    if (types.empty()) {
+      error(Code::MissingArgument, expr.span, {"1", name, "condition"});
+    } else {
+      require_condition(*expr.args[0], types[0]);
+    }
+  }
+  if (types.size() > message && !is_unknown(types[message]) &&
+      (types[message].kind != Type::Kind::String || types[message].is_parameter))
+    type_error(Code::MessageConstant, expr.args[message]->span, {name});
+  if (types.size() > message + 1)
+    error(Code::TooManyArguments, expr.args[message + 1]->span, {name, std::to_string(message + 1)});
+  ExpressionFact fact;
+  fact.type = none_type();
+  fact.call = is_assert ? CallKind::Assert : CallKind::Error;
+  record(expr, std::move(fact));
+  return {};
+}
+
+} // namespace moonshade::sema

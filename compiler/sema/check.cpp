@@ -1,0 +1,62 @@
+// The order of a check: globals, entry points, inference, the reporting walk over all that the program consists of,
+// then the bodies that nothing calls, which are walked with unknown arguments so that their errors are reported too.
+#include "compiler/sema/context.h"
+#include "compiler/sema/entries.h"
+
+namespace moonshade::sema {
+
+namespace {
+
+/// Functions that nothing called, one level of nesting after the other (a function is walked inside a specialisation of
+/// the one around it).
+void check_uncalled(Context& context) {
+  context.specialise_unknown = true;
+  while (!context.exhausted) {
+    std::vector<Work*> roots;
+    for (const syntax::Function* function : context.chunk.functions) {
+      if (context.walked[function->index] != nullptr || function->parent == nullptr) continue;
+      Work* parent = context.walked[function->parent->index];
+      if (parent == nullptr) continue;
+      Work* work = context.find_or_make(function, parent, std::vector<Type>(function->params.size()), function->span);
+      if (work == nullptr) return;
+      roots.push_back(work);
+    }
+    if (roots.empty()) return;
+    context.infer(roots);
+    context.report_walk(roots);
+  }
+}
+
+} // namespace
+
+Program check(const syntax::Chunk& chunk, const Options& options, Diagnostics& diagnostics) {
+  Program program;
+  program.chunk = &chunk;
+  Context context(chunk, diagnostics, program);
+  context.globals = collect_globals(chunk, diagnostics);
+  Work* top = context.find_or_make(chunk.main, nullptr, {}, chunk.main->span);
+  std::vector<EntryPlan> plans = plan_entries(context, options.entries);
+
+  std::vector<Work*> chosen = {top}, others;
+  for (EntryPlan& plan : plans) {
+    plan.work = context.find_or_make(plan.global->function, top, plan.inputs, plan.global->definition);
+    if (plan.work == nullptr) return program;
+    (plan.is_selected ? chosen : others).push_back(plan.work);
+  }
+  std::vector<Work*> all = chosen;
+  all.insert(all.end(), others.begin(), others.end());
+  context.infer(all);
+  context.collect = true;
+  context.report_walk(chosen);
+  context.collect = false;
+  context.continue_report_walk(others);
+  if (context.exhausted) return program;
+  for (const EntryPlan& plan : plans) {
+    finish_entry(context, plan);
+    check_assigned_for_entry(context, *top, *plan.work);
+  }
+  check_uncalled(context);
+  return program;
+}
+
+} // namespace moonshade::sema

@@ -1,0 +1,142 @@
+// What the parts of one check share: the specialisations found so far and their inferred types, the round of inference,
+// the diagnostics. Inference walks every reachable body again and again, silently, until no type changes; then it walks
+// once more, reports, and records the facts.
+#pragma once
+
+#include "compiler/sema/globals.h"
+#include "compiler/sema/program.h"
+#include "compiler/sema/types.h"
+
+#include <deque>
+#include <memory>
+#include <set>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+namespace moonshade::sema {
+
+/// Specialisations and parameters of one shader, calls inside each other, levels of syntax and calls walked inside each
+/// other, facts recorded, and nodes visited by inference: what exceeds them is `too-large`.
+inline constexpr size_t kMaxSpecialisations = 4096;
+inline constexpr size_t kMaxParameters = 4096;
+inline constexpr unsigned kMaxCallDepth = 200;
+inline constexpr unsigned kMaxWalkDepth = 3000;
+inline constexpr size_t kMaxFacts = 2'000'000;
+inline constexpr uint64_t kMaxVisits = 100'000'000;
+
+/// A variable that a specialisation may read before it assigns it: a local of an enclosing function, or a global.
+struct Requirement {
+  const void* variable; ///< the syntax::Local or the Global
+  std::string_view name;
+  Span place;
+};
+
+/// A specialisation while it is being inferred.
+struct Work {
+  const syntax::Function* function = nullptr;
+  /// The specialisation of the enclosing function inside which this one is; null for the top level.
+  Work* parent = nullptr;
+  std::vector<Type> arguments;
+
+  /// Types of the locals of this function, in every scope.
+  std::unordered_map<const syntax::Local*, Variable> variables;
+  /// Set by the first `return`.
+  bool has_results = false;
+  std::vector<Type> results;
+  Span first_return{};
+  /// First expression of each result, for messages.
+  std::vector<Span> result_spans;
+
+  unsigned round = 0;     ///< in which it was walked last
+  bool is_done = false;   ///< the reporting walk is over
+  Work* caller = nullptr; ///< who called it first, and where (of the reporting walk)
+  Span call_span{};
+
+  // What the reporting walk finds.
+  std::unique_ptr<Specialisation> owned; ///< until the program takes it
+  Specialisation* spec = nullptr;
+  std::unordered_map<uint32_t, Work*> callees; ///< by id of the call expression
+  std::vector<const syntax::Local*> captures;  ///< as Specialisation::captures
+  /// Of it and its callees.
+  std::vector<Requirement> requires_assigned;
+  /// Locals of enclosing functions that it assigns whenever it returns; of the top level all its variables.
+  std::vector<const void*> assigns_always;
+  bool never_returns = false; ///< every path ends in error() or an endless loop
+  /// Locals of enclosing functions (not the top level) that it or its callees assign.
+  std::set<const syntax::Local*> outer_writes;
+};
+
+struct WorkKey {
+  const syntax::Function* function;
+  Work* parent;
+  std::vector<Type> arguments;
+  bool operator==(const WorkKey&) const = default;
+};
+struct WorkKeyHash {
+  size_t operator()(const WorkKey& key) const;
+};
+
+struct Context {
+  const syntax::Chunk& chunk;
+  Diagnostics& diagnostics;
+  Program& program;
+  Globals globals;
+
+  std::unordered_map<WorkKey, std::unique_ptr<Work>, WorkKeyHash> works;
+  /// A reporting walk of each function, for those nested in it; null: not walked yet.
+  std::vector<Work*> walked;
+  std::unordered_map<const syntax::Local*, uint32_t> slots; ///< of captured top-level locals
+  /// Locals that some declaration leaves without a value (or with too few).
+  std::set<const syntax::Local*> unset_locals;
+
+  bool report = false;
+  bool collect = false;            ///< specialisations met now belong to the program
+  bool specialise_unknown = false; ///< bodies that nothing calls are walked with unknown arguments
+  unsigned round = 0;
+  bool changed = false;
+  uint64_t visits = 0;
+  unsigned walk_depth = 0;
+  unsigned call_depth = 0;
+  size_t facts = 0;
+  bool exhausted = false; ///< a limit was met: all walks end
+
+  std::set<std::pair<uint32_t, uint32_t>> reported;         ///< spans, so that each place is reported once
+  std::set<std::pair<const void*, const void*>> recursions; ///< reported ones, by caller and callee
+  std::unordered_map<std::string, unsigned> name_counts;
+  Diagnostic silent; ///< takes the notes of messages that are not reported
+
+  Context(const syntax::Chunk& c, Diagnostics& d, Program& p);
+
+  /// The specialisation for these arguments, made where it is new; null where there are too many.
+  Work* find_or_make(const syntax::Function* function, Work* parent, std::vector<Type> arguments, Span place);
+
+  /// Walks the body if it was not walked in this round yet.
+  void analyse(Work& work);
+  /// Silent rounds over `roots` until no type changes.
+  void infer(const std::vector<Work*>& roots);
+  /// The round that reports and records; it may be continued with further roots.
+  void report_walk(const std::vector<Work*>& roots);
+  void continue_report_walk(const std::vector<Work*>& roots);
+
+  /// Reports in the reporting round, each place once.
+  Diagnostic& error(DiagnosticCode code, Span span, std::initializer_list<std::string> args = {});
+  /// A limit is exceeded: reported at once, and everything ends.
+  void too_large(Span span, std::string what, size_t limit);
+  /// error(), with notes "in height(vec3), called here" up to the entry point.
+  bool is_reported(Span span) const { return reported.contains({span.begin, span.end}); }
+  Diagnostic& type_error(const Work& work, DiagnosticCode code, Span span,
+                         std::initializer_list<std::string> args = {});
+};
+
+/// "height(vec3)"
+std::string signature(const Work& work);
+
+/// Definite assignment and missing results (assigned.cpp): after the reporting walk of the body.
+void check_assigned(Context& context, Work& work);
+/// At the end: the top level must have assigned what entry points read.
+void check_assigned_for_entry(Context& context, const Work& top, const Work& entry);
+/// Order of evaluation and the sets of outer variables read and assigned (order.cpp).
+void check_order(Context& context, Work& work);
+
+} // namespace moonshade::sema

@@ -1,0 +1,170 @@
+// One traversal of the whole tree. Definitions inside functions are refused later, where the body is walked; only those
+// of the top level define anything.
+#include "compiler/sema/globals.h"
+
+namespace moonshade::sema {
+
+using namespace syntax;
+
+namespace {
+
+class Collector {
+public:
+  Collector(Globals& globals, Diagnostics& diagnostics) : globals_(globals), diagnostics_(diagnostics) {}
+
+  void block(const Block& block, bool certain) {
+    for (const Stat* stat : block.stats)
+      statement(*stat, certain);
+  }
+
+private:
+  void define(const NameExpr& target, const Function* function, Span span, bool certain) {
+    if (!target.is_global() || target.environment != nullptr || function_depth_ != 0) return;
+    const auto [found, is_new] = globals_.by_name.try_emplace(target.name);
+    Global& global = found->second;
+    if (is_new) {
+      global.name = target.name;
+      global.definition = target.span;
+      global.function = function;
+      if (function != nullptr) globals_.functions.push_back(&global);
+      if (function != nullptr && !certain) refuse(global, span);
+    } else if (function != nullptr || global.function != nullptr) {
+      refuse(global, span);
+    }
+  }
+
+  void refuse(Global& global, Span span) {
+    Diagnostic& diagnostic = diagnostics_.report(DiagnosticCode::FunctionNotKnown, span, {std::string(global.name)});
+    if (!(span == global.definition))
+      diagnostic.note(DiagnosticCode::NoteFirstDefinition, global.definition, {std::string(global.name)});
+    global.is_broken = true;
+  }
+
+  void function(const Function& function) {
+    ++function_depth_;
+    block(*function.body, false);
+    --function_depth_;
+  }
+
+  void expressions(std::span<Expr* const> exprs) {
+    for (const Expr* expr : exprs)
+      expression(expr);
+  }
+
+  void expression(const Expr* expr) {
+    if (expr == nullptr) return;
+    visit(*expr, Overloaded{
+                     [&](const NameExpr& name) {
+                       if (name.is_global()) used_.push_back(name.name);
+                     },
+                     [&](const Function& inner) { function(inner); },
+                     [&](const IndexExpr& index) {
+                       expression(index.object);
+                       expression(index.key);
+                     },
+                     [&](const CallExpr& call) {
+                       expression(call.callee);
+                       expressions(call.args);
+                     },
+                     [&](const MethodCallExpr& call) {
+                       expression(call.object);
+                       expressions(call.args);
+                     },
+                     [&](const ParenExpr& paren) { expression(paren.inner); },
+                     [&](const UnaryExpr& unary) { expression(unary.operand); },
+                     [&](const BinaryExpr& binary) {
+                       expression(binary.left);
+                       expression(binary.right);
+                     },
+                     [&](const TableExpr& table) {
+                       for (const TableField& field : table.fields) {
+                         expression(field.key);
+                         expression(field.value);
+                       }
+                     },
+                     [](const auto&) {},
+                 });
+  }
+
+  void assignment(const AssignStat& stat, bool certain) {
+    expressions(stat.values);
+    for (size_t i = 0; i < stat.targets.size(); ++i) {
+      const auto* name = try_as<NameExpr>(stat.targets[i]);
+      if (name == nullptr) {
+        expression(stat.targets[i]);
+        continue;
+      }
+      const Expr* value = i < stat.values.size() ? stat.values[i] : nullptr;
+      define(*name, try_as<Function>(value), name->span, certain);
+    }
+  }
+
+  void statement(const Stat& stat, bool certain) {
+    visit(stat, Overloaded{
+                    [&](const LocalStat& local) { expressions(local.values); },
+                    [&](const AssignStat& assign) { assignment(assign, certain); },
+                    [&](const CallStat& call) { expression(call.call); },
+                    [&](const DoStat& body) { block(*body.body, certain); },
+                    [&](const WhileStat& loop) {
+                      expression(loop.condition);
+                      block(*loop.body, false);
+                    },
+                    [&](const RepeatStat& loop) {
+                      block(*loop.body, false);
+                      expression(loop.condition);
+                    },
+                    [&](const IfStat& branch) {
+                      for (const IfClause& clause : branch.clauses) {
+                        expression(clause.condition);
+                        block(*clause.body, false);
+                      }
+                      if (branch.else_body != nullptr) block(*branch.else_body, false);
+                    },
+                    [&](const NumericForStat& loop) {
+                      expression(loop.start);
+                      expression(loop.limit);
+                      expression(loop.step);
+                      block(*loop.body, false);
+                    },
+                    [&](const GenericForStat& loop) {
+                      expressions(loop.values);
+                      block(*loop.body, false);
+                    },
+                    [&](const FunctionStat& definition) {
+                      if (const auto* name = try_as<NameExpr>(definition.target)) {
+                        define(*name, definition.function, name->span, certain);
+                      } else {
+                        expression(definition.target);
+                      }
+                      function(*definition.function);
+                    },
+                    [&](const LocalFunctionStat& definition) { function(*definition.function); },
+                    [&](const ReturnStat& result) { expressions(result.values); },
+                    [](const auto&) {},
+                });
+  }
+
+public:
+  void mark_used() {
+    for (const std::string_view name : used_)
+      if (Global* global = globals_.find(name)) global->is_used = true;
+  }
+
+private:
+  Globals& globals_;
+  Diagnostics& diagnostics_;
+  unsigned function_depth_ = 0;
+  std::vector<std::string_view> used_;
+};
+
+} // namespace
+
+Globals collect_globals(const Chunk& chunk, Diagnostics& diagnostics) {
+  Globals globals;
+  Collector collector(globals, diagnostics);
+  collector.block(*chunk.main->body, true);
+  collector.mark_used();
+  return globals;
+}
+
+} // namespace moonshade::sema

@@ -1,0 +1,47 @@
+// The global variables of a shader, from one look over the syntax: who defines them, where, and whether anything uses
+// them. A global that is defined once, by a function at the top level, stands for that function; any other is a
+// variable.
+#pragma once
+
+#include "compiler/sema/types.h"
+
+#include <map>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+namespace moonshade::sema {
+
+/// The type of a variable as far as it is inferred, and what made it so.
+struct Variable {
+  Type type;
+  Span first{};                                ///< where the first value was given
+  const syntax::Expr* integer_given = nullptr; ///< an integer given to it, for `mixed-number`
+};
+
+struct Global {
+  std::string_view name;
+  /// The function that it stands for; null for a variable.
+  const syntax::Function* function = nullptr;
+  Span definition{};      ///< the first one
+  bool is_used = false;   ///< some expression names it
+  bool is_broken = false; ///< defined several times, or in a branch: reported, stands for nothing
+  Variable variable;      ///< of a variable
+  uint32_t slot = ~0u;    ///< of a variable: index in Program::globals
+};
+
+struct Globals {
+  std::unordered_map<std::string_view, Global> by_name;
+  /// Those that stand for functions, in the order of their definitions.
+  std::vector<Global*> functions;
+
+  Global* find(std::string_view name) {
+    const auto found = by_name.find(name);
+    return found == by_name.end() ? nullptr : &found->second;
+  }
+};
+
+/// Reports globals that stand for a function but are defined more than once, or only on some paths.
+Globals collect_globals(const syntax::Chunk& chunk, Diagnostics& diagnostics);
+
+} // namespace moonshade::sema

@@ -1,0 +1,369 @@
+// Statements. Scopes were resolved by the parser; here variables get their types, and assignments to what a shader may
+// not assign are refused.
+#include "compiler/sema/walker.h"
+
+#include <algorithm>
+
+namespace moonshade::sema {
+
+using namespace syntax;
+using Code = DiagnosticCode;
+
+void Walker::function_body() {
+  const Function& function = *work_.function;
+  if (function.is_vararg && !at_top_level()) error(Code::Varargs, function.span);
+  for (size_t i = 0; i < function.params.size(); ++i)
+    declare(*function.params[i], i < work_.arguments.size() ? work_.arguments[i] : unknown_type(),
+            function.params[i]->span, nullptr);
+  block(*function.body);
+}
+
+void Walker::block(const Block& block) {
+  if (context_.report) collect_labels(block);
+  blocks_.push_back(&block);
+  positions_.push_back(0);
+  for (const Stat* stat : block.stats) {
+    statement(*stat);
+    ++positions_.back();
+  }
+  positions_.pop_back();
+  blocks_.pop_back();
+}
+
+void Walker::statement(const Stat& stat) {
+  if (context_.exhausted) return;
+  if (++context_.visits > kMaxVisits) context_.too_large(stat.span, "type inference takes too many steps", kMaxVisits);
+  if (++context_.walk_depth > kMaxWalkDepth)
+    context_.too_large(stat.span, "calls and blocks inside each other are too many", kMaxWalkDepth);
+  if (context_.exhausted) return;
+  visit(stat, Overloaded{
+                  [&](const LocalStat& node) { local(node); },
+                  [&](const AssignStat& node) { assign(node); },
+                  [&](const CallStat& node) { values(*node.call); },
+                  [&](const DoStat& node) { block(*node.body); },
+                  [&](const WhileStat& node) {
+                    ++loop_depth_;
+                    condition(*node.condition);
+                    block(*node.body);
+                    --loop_depth_;
+                  },
+                  [&](const RepeatStat& node) {
+                    ++loop_depth_;
+                    block(*node.body);
+                    condition(*node.condition);
+                    --loop_depth_;
+                  },
+                  [&](const IfStat& node) {
+                    for (const IfClause& clause : node.clauses) {
+                      condition(*clause.condition);
+                      block(*clause.body);
+                    }
+                    if (node.else_body != nullptr) block(*node.else_body);
+                  },
+                  [&](const NumericForStat& node) { numeric_for(node); },
+                  [&](const GenericForStat& node) { generic_for(node); },
+                  [&](const FunctionStat& node) { define_function(node); },
+                  [&](const LocalFunctionStat& node) {
+                    if (node.function->is_vararg) error(Code::Varargs, node.function->span);
+                    declare(*node.local, function_type(node.function), node.local->span, nullptr);
+                  },
+                  [&](const ReturnStat& node) { return_values(node); },
+                  [&](const GotoStat& node) { check_goto(node); },
+                  [](const auto&) {},
+              });
+  --context_.walk_depth;
+}
+
+// ---- variables -----------------------------------------------------------------------------------------------------
+
+void Walker::give(Variable& variable, const Type& type, Span place, const Expr* given, std::string_view name) {
+  if (type.is(ValueType::Integer) && variable.integer_given == nullptr) variable.integer_given = given;
+  const std::optional<Type> joined = join(variable.type, type);
+  if (!joined) {
+    if (!context_.report) return;
+    const auto is_function = [](const Type& t) {
+      return t.kind == Type::Kind::Function || t.kind == Type::Kind::Library;
+    };
+    if (is_function(variable.type) || is_function(type)) {
+      error(Code::FunctionNotKnown, place, {std::string(name)});
+      return;
+    }
+    if (variable.type.kind == Type::Kind::String && type.kind == Type::Kind::String) {
+      error(Code::NotAvailableYet, place, {"variables that hold several strings are"});
+      return;
+    }
+    Diagnostic& diagnostic =
+        type_error(Code::TypeConflict, place, {std::string(name), describe(variable.type), describe(type)});
+    diagnostic.note(Code::NoteFirstGiven, variable.first, {describe(variable.type)});
+    return;
+  }
+  if (is_unknown(variable.type)) variable.first = place;
+  if (*joined == variable.type) return;
+  variable.type = *joined;
+  context_.changed = true;
+}
+
+void Walker::declare(const Local& local, const Type& type, Span given_at, const Expr* given) {
+  Variable& variable = work_.variables[&local];
+  give(variable, type, given_at, given, local.name);
+  if (!context_.report || work_.spec == nullptr) return;
+  work_.spec->locals[&local].type = variable.type;
+  if (is_slot(local) && variable.type.is_value()) slot_of(local);
+}
+
+void Walker::local(const LocalStat& stat) {
+  const TypeList list = expression_list(stat.values);
+  for (size_t i = 0; i < stat.locals.size(); ++i) {
+    const Local& local = *stat.locals[i];
+    if (local.attrib == Attrib::Close) error(Code::CloseVariable, local.span, {std::string(local.name)});
+    const Type type = list.at(i);
+    const Expr* given = stat.values.empty() ? nullptr : stat.values[std::min(i, stat.values.size() - 1)];
+    const Span place = given != nullptr ? given->span : local.span;
+    if (type.kind == Type::Kind::None) {
+      context_.unset_locals.insert(&local);
+      declare(local, unknown_type(), place, nullptr);
+    } else if (type.kind == Type::Kind::Function && local.is_assigned) {
+      error(Code::FunctionNotKnown, place, {std::string(local.name)});
+      declare(local, unknown_type(), place, nullptr);
+    } else {
+      declare(local, type, place, given);
+    }
+  }
+  // A captured constant that is just a parameter needs no code at the top level.
+  if (!context_.report || stat.locals.size() != 1 || stat.values.size() != 1 || stat.locals[0]->is_assigned) return;
+  const auto slot = context_.slots.find(stat.locals[0]);
+  const auto fact = work_.spec->expressions.find(strip_parentheses(*stat.values[0]).id);
+  if (slot != context_.slots.end() && fact != work_.spec->expressions.end() &&
+      strip_parentheses(*stat.values[0]).kind == ExprKind::Call && fact->second.call == CallKind::Parameter &&
+      fact->second.type.is_value())
+    context_.program.globals[slot->second].parameter = fact->second.index;
+}
+
+void Walker::assign(const AssignStat& stat) {
+  // A function given to a global at the top level is a definition of it.
+  const TypeList list = expression_list(stat.values);
+  for (size_t i = 0; i < stat.targets.size(); ++i) {
+    const Expr& target = *stat.targets[i];
+    if (const auto* indexed = try_as<IndexExpr>(&target)) {
+      assign_index(stat, *indexed);
+      continue;
+    }
+    const auto* name = try_as<NameExpr>(&target);
+    if (name == nullptr) continue;
+    const Expr& given = *stat.values[std::min(i, stat.values.size() - 1)];
+    Type type = list.at(i);
+    if (type.kind == Type::Kind::None) {
+      error(Code::MissingValue, target.span, {std::string(name->name)});
+      type = unknown_type();
+    }
+    assign_name(stat, *name, type, given);
+    for (size_t j = 0; j < i; ++j) {
+      const auto* other = try_as<NameExpr>(stat.targets[j]);
+      if (other != nullptr && other->local == name->local && other->name == name->name)
+        error(Code::SameTargetTwice, target.span, {std::string(name->name)});
+    }
+  }
+}
+
+void Walker::assign_name(const AssignStat& stat, const NameExpr& target, const Type& type, const Expr& given) {
+  const std::string text(target.name);
+  if (target.local != nullptr) {
+    const Local& local = *target.local;
+    if (local.function == context_.chunk.main && !at_top_level()) {
+      error(Code::NoMemory, stat.span, {text}).note(Code::NoteDeclaredHere, local.span, {text});
+      return;
+    }
+    if (type.kind == Type::Kind::Function || variable_of(local).type.kind == Type::Kind::Function) {
+      error(Code::FunctionNotKnown, stat.span, {text});
+      return;
+    }
+    give(variable_of(local), type, given.span, &given, local.name);
+    local_name(target);
+    if (context_.report && local.function != work_.function) work_.outer_writes.insert(&local);
+    return;
+  }
+  if (target.environment != nullptr || target.name == "_ENV") {
+    error(Code::EnvironmentTable, target.span, {"_ENV"});
+    return;
+  }
+  if (!at_top_level()) {
+    error(Code::GlobalAssignment, stat.span, {text});
+    return;
+  }
+  Global* global = context_.globals.find(target.name);
+  if (global == nullptr || global->is_broken || global->function != nullptr) return;
+  if (type.kind == Type::Kind::Function) {
+    error(Code::FunctionNotKnown, stat.span, {text});
+    return;
+  }
+  give(global->variable, type, given.span, &given, target.name);
+  global_name(target);
+}
+
+namespace {
+
+/// "'v = vec3(1, v.y, v.z)'", as far as the target is as simple as that.
+std::string component_proposal(const Expr& object, const Type& type, std::string_view component,
+                               const AssignStat& stat) {
+  const auto* name = try_as<NameExpr>(&object);
+  const std::string variable = name != nullptr ? std::string(name->name) : "v";
+  std::string value = "...";
+  if (stat.targets.size() == 1 && stat.values.size() == 1) {
+    if (const auto* integer = try_as<IntegerExpr>(stat.values[0])) value = std::to_string(integer->value);
+    if (const auto* given = try_as<NameExpr>(stat.values[0])) value = given->name;
+  }
+  const std::string_view letters = component.find_first_of("rgba") != std::string_view::npos ? "rgba" : "xyzw";
+  std::string text = "'" + variable + " = " + type_name(type) + "(";
+  for (unsigned i = 0; i < component_count(type.value); ++i) {
+    if (i > 0) text += ", ";
+    text += letters[i] == component[0] ? value : variable + "." + letters[i];
+  }
+  return text + ")'";
+}
+
+} // namespace
+
+void Walker::assign_index(const AssignStat& stat, const IndexExpr& target) {
+  const Type object = expression(*target.object);
+  if (!target.is_dotted) expression(*target.key);
+  if (is_unknown(object)) return;
+  if (is_vector(object)) {
+    std::string component = "x";
+    if (const auto* key = try_as<StringExpr>(target.key); key != nullptr && key->value.size() == 1)
+      component = key->value;
+    if (const auto* key = try_as<IntegerExpr>(target.key); key != nullptr && key->value >= 1 && key->value <= 4)
+      component = "xyzw"[key->value - 1];
+    type_error(Code::VectorComponent, stat.span, {component_proposal(*target.object, object, component, stat)});
+  } else if (object.kind == Type::Kind::Library) {
+    error(Code::LibraryAssignment, stat.span);
+  } else {
+    type_error(Code::NoFields, target.object->span, {describe(object)});
+  }
+}
+
+void Walker::define_function(const FunctionStat& stat) {
+  if (stat.function->is_method) {
+    error(Code::MethodDefinition, stat.target->span);
+    return;
+  }
+  const auto* name = try_as<NameExpr>(stat.target);
+  if (name == nullptr) {
+    if (const auto* target = try_as<IndexExpr>(stat.target)) {
+      const Type object = expression(*target->object);
+      if (object.kind == Type::Kind::Library) {
+        error(Code::LibraryAssignment, stat.span);
+      } else if (!is_unknown(object)) {
+        type_error(Code::NoFields, target->object->span, {describe(object)});
+      }
+    }
+    return;
+  }
+  if (stat.function->is_vararg) error(Code::Varargs, stat.function->span);
+  const std::string text(name->name);
+  if (name->local != nullptr) {
+    if (name->local->function == context_.chunk.main && !at_top_level()) {
+      error(Code::NoMemory, stat.span, {text}).note(Code::NoteDeclaredHere, name->local->span, {text});
+    } else {
+      error(Code::FunctionNotKnown, stat.span, {text});
+    }
+  } else if (name->environment != nullptr || name->name == "_ENV") {
+    error(Code::EnvironmentTable, name->span, {"_ENV"});
+  } else if (!at_top_level()) {
+    error(Code::GlobalAssignment, stat.span, {text});
+  }
+}
+
+// ---- loops and results ---------------------------------------------------------------------------------------------
+
+void Walker::numeric_for(const NumericForStat& stat) {
+  const auto bound = [&](const Expr* expr, const char* role) -> Type {
+    if (expr == nullptr) return integer_type();
+    const Type type = expression(*expr);
+    if (is_unknown(type) || is_scalar(type)) return type;
+    type_error(Code::LoopNumber, expr->span, {role, describe(type)});
+    return unknown_type();
+  };
+  const Type start = bound(stat.start, "start");
+  bound(stat.limit, "limit");
+  const Type step = bound(stat.step, "step");
+  // Integers only where both the start and the step are; the limit does not matter.
+  Type type = number_type();
+  if (is_unknown(start) || is_unknown(step)) {
+    type = unknown_type();
+  } else if (start.is(ValueType::Integer) && step.is(ValueType::Integer)) {
+    type = integer_type();
+  } else {
+    const auto may_be_integer = [](const Type& bound) { return bound.mixed || bound.is(ValueType::Integer); };
+    if (may_be_integer(start) && may_be_integer(step)) type = mixed_type();
+  }
+  ++loop_depth_;
+  declare(*stat.variable, type, stat.start->span, stat.start);
+  block(*stat.body);
+  --loop_depth_;
+}
+
+void Walker::generic_for(const GenericForStat& stat) {
+  // `ipairs(...)` and `pairs(...)` are refused by name; anything else as such.
+  const auto* call = stat.values.empty() ? nullptr : try_as<CallExpr>(stat.values[0]);
+  const auto* name = call != nullptr ? try_as<NameExpr>(call->callee) : nullptr;
+  const bool is_named = name != nullptr && name->is_global() && context_.globals.find(name->name) == nullptr &&
+                        (name->name == "ipairs" || name->name == "pairs" || name->name == "next");
+  if (is_named) {
+    refuse_name(name->span, name->name);
+  } else if (!stat.values.empty()) {
+    const auto* first = try_as<NameExpr>(stat.values[0]);
+    if (first != nullptr && first->is_global() && first->name == "next") {
+      refuse_name(first->span, "next");
+    } else {
+      error(Code::GenericForLoop, stat.values[0]->span);
+    }
+  }
+  ++loop_depth_;
+  for (const Local* variable : stat.variables)
+    declare(*variable, unknown_type(), variable->span, nullptr);
+  block(*stat.body);
+  --loop_depth_;
+}
+
+void Walker::return_values(const ReturnStat& stat) {
+  TypeList list = expression_list(stat.values);
+  if (at_top_level()) return; // what the file returns nobody reads
+  for (size_t i = 0; i < list.types.size(); ++i) {
+    Type& type = list.types[i];
+    if (type.kind != Type::Kind::Function && type.kind != Type::Kind::Library && type.kind != Type::Kind::String)
+      continue;
+    error(Code::NotAvailableYet, stat.values[std::min(i, stat.values.size() - 1)]->span,
+          {type.kind == Type::Kind::String ? "strings as results are" : "functions as results are"});
+    type = unknown_type();
+  }
+  if (list.open) return;
+  const auto span_of = [&](size_t i) {
+    return stat.values.empty() ? stat.span : stat.values[std::min(i, stat.values.size() - 1)]->span;
+  };
+  if (!work_.has_results) {
+    work_.has_results = true;
+    work_.results = list.types;
+    work_.first_return = stat.span;
+    for (size_t i = 0; i < list.types.size(); ++i)
+      work_.result_spans.push_back(span_of(i));
+    context_.changed = true;
+    return;
+  }
+  if (list.types.size() != work_.results.size()) {
+    type_error(Code::ResultCount, stat.span, {std::to_string(list.types.size()), std::to_string(work_.results.size())})
+        .note(Code::NoteOtherReturn, work_.first_return);
+    return;
+  }
+  for (size_t i = 0; i < list.types.size(); ++i) {
+    const std::optional<Type> joined = join(work_.results[i], list.types[i]);
+    if (!joined) {
+      type_error(Code::ResultType, span_of(i), {describe(list.types[i]), describe(work_.results[i])})
+          .note(Code::NoteOtherReturn, work_.first_return);
+    } else if (*joined != work_.results[i]) {
+      work_.results[i] = *joined;
+      context_.changed = true;
+    }
+  }
+}
+
+} // namespace moonshade::sema

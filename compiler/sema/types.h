@@ -1,0 +1,57 @@
+// Types and what can be asked of them: how they join, whether they are numbers, how messages call them.
+#pragma once
+
+#include "compiler/sema/program.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace moonshade::sema {
+
+inline Type unknown_type() { return {}; }
+inline Type number_type() { return Type::of(ValueType::Number); }
+inline Type integer_type() { return Type::of(ValueType::Integer); }
+inline Type boolean_type() { return Type::of(ValueType::Boolean); }
+inline Type none_type() { return {Type::Kind::None, ValueType::Boolean, nullptr, {}, false, false}; }
+inline Type mixed_type() { return {Type::Kind::Value, ValueType::Number, nullptr, {}, true, false}; }
+inline Type string_type(std::string_view text) {
+  return {Type::Kind::String, ValueType::Boolean, nullptr, text, false, false};
+}
+inline Type library_type(std::string_view name) {
+  return {Type::Kind::Library, ValueType::Boolean, nullptr, name, false, false};
+}
+inline Type function_type(const syntax::Function* function) {
+  return {Type::Kind::Function, ValueType::Boolean, function, {}, false, false};
+}
+
+inline bool is_unknown(const Type& type) { return type.kind == Type::Kind::Unknown; }
+/// An integer or a number.
+inline bool is_scalar(const Type& type) { return type.is(ValueType::Integer) || type.is(ValueType::Number); }
+inline bool is_vector(const Type& type) { return type.is_value() && is_vector(type.value); }
+
+/// The least type that holds both: integer and number give a mixed number, Unknown agrees with everything. Nothing
+/// where there is none.
+std::optional<Type> join(const Type& a, const Type& b);
+
+/// As messages write it, with an article: "a number", "an integer", "a vec3", "a function".
+std::string describe(const Type& type);
+/// The bare name, for signatures: "vec3", "number".
+std::string type_name(const Type& type);
+
+/// The values of an expression list. `open`: how many there are is not known (an error, or not inferred yet).
+struct TypeList {
+  std::vector<Type> types;
+  bool open = false;
+
+  /// The value at `index`: Unknown beyond an open end, None beyond a closed one.
+  Type at(size_t index) const {
+    if (index < types.size()) return types[index];
+    return open ? unknown_type() : none_type();
+  }
+};
+
+/// For hash tables keyed by types.
+size_t hash_of(const Type& type);
+
+} // namespace moonshade::sema

@@ -1,0 +1,129 @@
+// The walk over the body of one specialisation: gives every expression its type, joins the types of variables and
+// results, and in the reporting round refuses what the dialect leaves out and records the facts. Its methods stand in
+// expressions.cpp, operators.cpp, conditionals.cpp, calls.cpp, parameters.cpp and statements.cpp.
+#pragma once
+
+#include "compiler/sema/context.h"
+
+#include <initializer_list>
+#include <optional>
+#include <span>
+#include <string>
+
+namespace moonshade::sema {
+
+class Walker {
+public:
+  Walker(Context& context, Work& work) : context_(context), work_(work) {}
+
+  void function_body();
+
+private:
+  // ---- expressions.cpp
+  Type expression(const syntax::Expr& expr);
+  /// All values: several only for a call.
+  TypeList values(const syntax::Expr& expr);
+  TypeList expression_list(std::span<syntax::Expr* const> exprs);
+  /// The value of an expression that must exist at run time: functions, strings and nothing are refused.
+  Type run_time_value(const syntax::Expr& expr);
+  Type name(const syntax::NameExpr& expr);
+  Type local_name(const syntax::NameExpr& expr);
+  Type global_name(const syntax::NameExpr& expr);
+  Type index(const syntax::IndexExpr& expr);
+  Type library_field(const syntax::IndexExpr& expr, std::string_view table);
+  Type vector_component(const syntax::IndexExpr& expr, const Type& object);
+  Type table(const syntax::TableExpr& expr);
+  Type function_expression(const syntax::Function& function);
+  void refuse_name(Span span, std::string_view name);
+
+  // ---- operators.cpp
+  Type unary(const syntax::UnaryExpr& expr);
+  Type length_operator(const syntax::UnaryExpr& expr, const Type& operand);
+  Type binary(const syntax::BinaryExpr& expr);
+  Type arithmetic(const syntax::BinaryExpr& expr, const Type& left, const Type& right);
+  Type bitwise(const syntax::BinaryExpr& expr, const Type& left, const Type& right);
+  Type equality(const syntax::BinaryExpr& expr, const Type& left, const Type& right);
+  Type ordering(const syntax::BinaryExpr& expr, const Type& left, const Type& right);
+  bool takes_arithmetic(const syntax::Expr& operand, const Type& type, std::string_view op);
+  bool takes_integer(const syntax::Expr& operand, const Type& type, std::string_view op);
+  void refuse_mixed(const syntax::Expr& operand, std::string_view op);
+
+  // ---- conditionals.cpp
+  /// The expression must be a boolean.
+  void condition(const syntax::Expr& expr);
+  void require_condition(const syntax::Expr& expr, const Type& type);
+  Type and_expression(const syntax::BinaryExpr& expr);
+  Type or_expression(const syntax::BinaryExpr& expr);
+
+  // ---- calls.cpp
+  TypeList call(const syntax::CallExpr& expr);
+  TypeList call_function(const syntax::CallExpr& expr, const syntax::Function& function);
+  TypeList call_library(const syntax::CallExpr& expr, std::string_view name);
+  TypeList call_table_row(const syntax::Expr& expr, std::string_view name, const std::vector<const syntax::Expr*>& args,
+                          const std::vector<Type>& types);
+  TypeList method_call(const syntax::MethodCallExpr& expr);
+  TypeList construct(const syntax::CallExpr& expr, std::string_view name);
+  TypeList to_integer(const syntax::CallExpr& expr, std::string_view name);
+  TypeList math_type(const syntax::CallExpr& expr);
+  TypeList assert_or_error(const syntax::CallExpr& expr, bool is_assert);
+  /// Argument types, the last call expanded; functions among them are refused.
+  TypeList arguments(std::span<syntax::Expr* const> args);
+  bool is_recursive(const syntax::CallExpr& expr, const syntax::Function& function);
+  Work* lexical_owner(const syntax::Function* function) const;
+
+  // ---- parameters.cpp
+  TypeList parameter(const syntax::CallExpr& expr);
+
+  // ---- statements.cpp
+  void block(const syntax::Block& block);
+  void statement(const syntax::Stat& stat);
+  void local(const syntax::LocalStat& stat);
+  void assign(const syntax::AssignStat& stat);
+  void assign_name(const syntax::AssignStat& stat, const syntax::NameExpr& target, const Type& type,
+                   const syntax::Expr& given);
+  void assign_index(const syntax::AssignStat& stat, const syntax::IndexExpr& target);
+  void define_function(const syntax::FunctionStat& stat);
+  void numeric_for(const syntax::NumericForStat& stat);
+  void generic_for(const syntax::GenericForStat& stat);
+  void return_values(const syntax::ReturnStat& stat);
+  void declare(const syntax::Local& local, const Type& type, Span given_at, const syntax::Expr* given);
+  /// Joins a type given at a place into a variable.
+  void give(Variable& variable, const Type& type, Span place, const syntax::Expr* given, std::string_view name);
+
+  // ---- gotos.cpp
+  void collect_labels(const syntax::Block& block);
+  void check_goto(const syntax::GotoStat& stat);
+
+  // ---- shared
+  Variable& variable_of(const syntax::Local& local);
+  bool at_top_level() const { return work_.function == context_.chunk.main; }
+  bool is_slot(const syntax::Local& local) const { return local.function == context_.chunk.main && local.is_captured; }
+  uint32_t slot_of(const syntax::Local& local);
+  Type record(const syntax::Expr& expr, ExpressionFact fact);
+  Type record(const syntax::Expr& expr, const Type& type);
+  Diagnostic& error(DiagnosticCode code, Span span, std::initializer_list<std::string> args = {}) {
+    return context_.error(code, span, args);
+  }
+  Diagnostic& type_error(DiagnosticCode code, Span span, std::initializer_list<std::string> args = {}) {
+    return context_.type_error(work_, code, span, args);
+  }
+  std::string suggest_visible(std::string_view name);
+
+  Context& context_;
+  Work& work_;
+  unsigned loop_depth_ = 0;
+  std::vector<const syntax::Block*> blocks_; ///< enclosing ones in this function
+  std::vector<size_t> positions_;            ///< of the statement being walked in each of them
+  /// Where a label of an enclosing block stands.
+  struct LabelPlace {
+    const syntax::Block* block;
+    size_t run_begin; ///< of the labels side by side to which it belongs
+    bool ends_block;
+  };
+  std::unordered_map<const syntax::LabelStat*, LabelPlace> labels_;
+};
+
+/// The expression inside any parentheses.
+const syntax::Expr& strip_parentheses(const syntax::Expr& expr);
+
+} // namespace moonshade::sema
