@@ -34,11 +34,16 @@ constexpr Address kExports[][2][kWidths.size()] = {
 void call(void* function, void** p, unsigned count) {
   using P = void*;
   switch (count) {
-  case 2: return reinterpret_cast<void (*)(P, P)>(function)(p[0], p[1]);
-  case 3: return reinterpret_cast<void (*)(P, P, P)>(function)(p[0], p[1], p[2]);
-  case 4: return reinterpret_cast<void (*)(P, P, P, P)>(function)(p[0], p[1], p[2], p[3]);
-  case 5: return reinterpret_cast<void (*)(P, P, P, P, P)>(function)(p[0], p[1], p[2], p[3], p[4]);
-  default: throw std::logic_error("an export with more parameters than the test knows");
+  case 2:
+    return reinterpret_cast<void (*)(P, P)>(function)(p[0], p[1]);
+  case 3:
+    return reinterpret_cast<void (*)(P, P, P)>(function)(p[0], p[1], p[2]);
+  case 4:
+    return reinterpret_cast<void (*)(P, P, P, P)>(function)(p[0], p[1], p[2], p[3]);
+  case 5:
+    return reinterpret_cast<void (*)(P, P, P, P, P)>(function)(p[0], p[1], p[2], p[3], p[4]);
+  default:
+    throw std::logic_error("an export with more parameters than the test knows");
   }
 }
 
@@ -51,7 +56,8 @@ struct alignas(256) Slot {
 
 void* export_address(const LibraryFunction& row, Precision precision, unsigned width) {
   size_t w = 0;
-  while (kWidths[w] != width) ++w;
+  while (kWidths[w] != width)
+    ++w;
   size_t index = &row - library().data();
   return reinterpret_cast<void*>(kExports[index][precision == Precision::F64][w]);
 }
@@ -66,11 +72,13 @@ std::vector<Column> run_export(const LibraryFunction& row, Precision precision, 
   std::vector<Column> results;
   for (unsigned i = 0; i < row.result_count; ++i) {
     ValueType type = row.results[i];
-    results.push_back({type, std::vector<unsigned char>(component_count(type) * component_size(type, precision) * points)});
+    results.push_back(
+        {type, std::vector<unsigned char>(component_count(type) * component_size(type, precision) * points)});
   }
   std::vector<Slot> slots(results.size() + arguments.size());
   std::vector<void*> pointers;
-  for (Slot& slot : slots) pointers.push_back(slot.bytes);
+  for (Slot& slot : slots)
+    pointers.push_back(slot.bytes);
   // One block's lanes of a column to or from its slot.
   auto each_component = [&](const Column& column, unsigned first, auto copy) {
     unsigned size = component_size(column.type, precision);

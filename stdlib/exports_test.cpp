@@ -20,42 +20,99 @@ using namespace stdlib;
 
 constexpr unsigned kPoints = 4096;
 
-// Arguments -------------------------------------------------------------------------------------------------------------
+// Arguments
+// -------------------------------------------------------------------------------------------------------------
 
 template <class T> T awkward_number(std::mt19937_64& random) {
   using Limits = std::numeric_limits<T>;
-  static const T values[] = {0, -T(0), 1, -1, T(0.5), T(-0.5), 2, 3, -3, T(0x1p23), T(-0x1p23), T(0x1p31), T(0x1p52),
-                             T(0x1p53), T(0x1p63), T(-0x1p63), T(0x1p64), T(1e10), T(-1e30), Limits::infinity(),
-                             -Limits::infinity(), Limits::quiet_NaN(), Limits::min(), Limits::denorm_min(),
-                             -Limits::denorm_min(), Limits::max(), Limits::lowest(), Limits::epsilon(),
-                             T(3.14159265358979), T(1.57079632679489), T(131072), T(1e20), T(0.49999997), T(255), T(256)};
+  static const T values[] = {0,
+                             -T(0),
+                             1,
+                             -1,
+                             T(0.5),
+                             T(-0.5),
+                             2,
+                             3,
+                             -3,
+                             T(0x1p23),
+                             T(-0x1p23),
+                             T(0x1p31),
+                             T(0x1p52),
+                             T(0x1p53),
+                             T(0x1p63),
+                             T(-0x1p63),
+                             T(0x1p64),
+                             T(1e10),
+                             T(-1e30),
+                             Limits::infinity(),
+                             -Limits::infinity(),
+                             Limits::quiet_NaN(),
+                             Limits::min(),
+                             Limits::denorm_min(),
+                             -Limits::denorm_min(),
+                             Limits::max(),
+                             Limits::lowest(),
+                             Limits::epsilon(),
+                             T(3.14159265358979),
+                             T(1.57079632679489),
+                             T(131072),
+                             T(1e20),
+                             T(0.49999997),
+                             T(255),
+                             T(256)};
   return values[random() % std::size(values)];
 }
 
 template <class T> T some_number(std::mt19937_64& random) {
   auto uniform = [&](double low, double high) { return T(low + (high - low) * double(random() >> 11) * 0x1p-53); };
   switch (random() % 8) {
-  case 0: return awkward_number<T>(random);
+  case 0:
+    return awkward_number<T>(random);
   case 1: {
     T value;
     uint64_t bits = random();
     std::memcpy(&value, &bits, sizeof value);
     return value;
   }
-  case 2: return T(int(random() % 41) - 20);
-  case 3: return uniform(-1000, 1000);
-  case 4: return std::exp2(uniform(-40, 40));
-  default: return uniform(-4, 4);
+  case 2:
+    return T(int(random() % 41) - 20);
+  case 3:
+    return uniform(-1000, 1000);
+  case 4:
+    return std::exp2(uniform(-40, 40));
+  default:
+    return uniform(-4, 4);
   }
 }
 
 int64_t some_integer(std::mt19937_64& random) {
-  static const int64_t values[] = {0, 1, -1, 2, -2, 7, 63, 64, 65, -63, -64, -65, 1 << 24, (1 << 24) + 1, INT64_MAX,
-                                   INT64_MIN, INT64_MAX - 1, INT64_MIN + 1, int64_t(1) << 53, (int64_t(1) << 53) + 1};
+  static const int64_t values[] = {0,
+                                   1,
+                                   -1,
+                                   2,
+                                   -2,
+                                   7,
+                                   63,
+                                   64,
+                                   65,
+                                   -63,
+                                   -64,
+                                   -65,
+                                   1 << 24,
+                                   (1 << 24) + 1,
+                                   INT64_MAX,
+                                   INT64_MIN,
+                                   INT64_MAX - 1,
+                                   INT64_MIN + 1,
+                                   int64_t(1) << 53,
+                                   (int64_t(1) << 53) + 1};
   switch (random() % 4) {
-  case 0: return values[random() % std::size(values)];
-  case 1: return int64_t(random());
-  default: return int64_t(random() % 201) - 100;
+  case 0:
+    return values[random() % std::size(values)];
+  case 1:
+    return int64_t(random());
+  default:
+    return int64_t(random() % 201) - 100;
   }
 }
 
@@ -66,7 +123,7 @@ Column some_column(ValueType type, Precision precision, std::mt19937_64& random)
     int64_t integer = some_integer(random);
     float f = some_number<float>(random);
     double d = some_number<double>(random);
-    const void* from = type == ValueType::Integer ? static_cast<const void*>(&integer)
+    const void* from = type == ValueType::Integer    ? static_cast<const void*>(&integer)
                        : precision == Precision::F32 ? static_cast<const void*>(&f)
                                                      : static_cast<const void*>(&d);
     std::memcpy(&column.bytes[i], from, size);
@@ -74,7 +131,8 @@ Column some_column(ValueType type, Precision precision, std::mt19937_64& random)
   return column;
 }
 
-// Comparison ------------------------------------------------------------------------------------------------------------
+// Comparison
+// ------------------------------------------------------------------------------------------------------------
 
 /// A component as text: the same for all NaNs, otherwise its bits.
 std::string text_of(const unsigned char* at, ValueType type, Precision precision) {
@@ -87,8 +145,10 @@ std::string text_of(const unsigned char* at, ValueType type, Precision precision
   }
   double value;
   float f;
-  if (precision == Precision::F32) std::memcpy(&f, at, sizeof f), value = f;
-  else std::memcpy(&value, at, sizeof value);
+  if (precision == Precision::F32)
+    std::memcpy(&f, at, sizeof f), value = f;
+  else
+    std::memcpy(&value, at, sizeof value);
   if (std::isnan(value)) return "nan";
   std::snprintf(text, sizeof text, "%a", value);
   return text;
@@ -120,7 +180,8 @@ std::string arguments_at(std::span<const Column> arguments, Precision precision,
 std::vector<Column> arguments_of(const LibraryFunction& row, Precision precision, unsigned seed) {
   std::mt19937_64 random(seed);
   std::vector<Column> arguments;
-  for (unsigned i = 0; i < row.parameter_count; ++i) arguments.push_back(some_column(row.parameters[i], precision, random));
+  for (unsigned i = 0; i < row.parameter_count; ++i)
+    arguments.push_back(some_column(row.parameters[i], precision, random));
   return arguments;
 }
 
@@ -142,28 +203,39 @@ TEST(Exports, AllWidthsGiveTheBitsOfOneLane) {
   }
 }
 
-// The templates themselves ----------------------------------------------------------------------------------------------
+// The templates themselves
+// ----------------------------------------------------------------------------------------------
 
 /// Reads and writes one point of a column as a value of C++.
 template <class T, class L> T read(const Column& column, unsigned point) {
   T value;
-  auto component = [&](unsigned c, auto& to) { std::memcpy(&to, &column.bytes[sizeof to * (c * kPoints + point)], sizeof to); };
-  if constexpr (std::is_same_v<T, L> || std::is_same_v<T, int64_t>) component(0, value);
-  else for (unsigned c = 0; c < sizeof value / sizeof(L); ++c) component(c, value[c]);
+  auto component = [&](unsigned c, auto& to) {
+    std::memcpy(&to, &column.bytes[sizeof to * (c * kPoints + point)], sizeof to);
+  };
+  if constexpr (std::is_same_v<T, L> || std::is_same_v<T, int64_t>)
+    component(0, value);
+  else
+    for (unsigned c = 0; c < sizeof value / sizeof(L); ++c)
+      component(c, value[c]);
   return value;
 }
 template <class L, class T> void write(Column& column, unsigned point, const T& value) {
   auto component = [&](unsigned c, const auto& from) {
     std::memcpy(&column.bytes[sizeof from * (c * kPoints + point)], &from, sizeof from);
   };
-  if constexpr (std::is_same_v<T, L> || std::is_same_v<T, int64_t>) component(0, value);
-  else if constexpr (std::is_same_v<T, Mask<L>>) component(0, static_cast<unsigned char>(value.bits));
-  else for (unsigned c = 0; c < sizeof value / sizeof(L); ++c) component(c, value[c]);
+  if constexpr (std::is_same_v<T, L> || std::is_same_v<T, int64_t>)
+    component(0, value);
+  else if constexpr (std::is_same_v<T, Mask<L>>)
+    component(0, static_cast<unsigned char>(value.bits));
+  else
+    for (unsigned c = 0; c < sizeof value / sizeof(L); ++c)
+      component(c, value[c]);
 }
 template <class L, class T> void write_all(std::vector<Column>& results, unsigned point, const T& value) {
   write<L>(results[0], point, value);
 }
-template <class L, class A, class B> void write_all(std::vector<Column>& results, unsigned point, const Results<A, B>& value) {
+template <class L, class A, class B>
+void write_all(std::vector<Column>& results, unsigned point, const Results<A, B>& value) {
   write<L>(results[0], point, value.first);
   write<L>(results[1], point, value.second);
 }
@@ -186,7 +258,8 @@ template <class Row, class L> void expect_native_agrees(const LibraryFunction& r
   auto arguments = arguments_of(row, precision, 2);
   auto expected = run_export(row, precision, 1, arguments, kPoints);
   auto found = expected;
-  for (Column& column : found) std::fill(column.bytes.begin(), column.bytes.end(), 0x5a);
+  for (Column& column : found)
+    std::fill(column.bytes.begin(), column.bytes.end(), 0x5a);
   NativeOf<Row, L>::Type::run(arguments, found);
   for (unsigned r = 0; r < row.result_count; ++r) {
     std::string wrong = difference(expected[r], found[r], precision);

@@ -62,8 +62,11 @@ def odd(name, f, limit, degree, rounding=to_float):
         rounding, lambda z, p: (1 + z * p) * mp.sqrt(z) / f(mp.sqrt(z)) - 1)
 
 
-odd("sin", mp.sin, mp.pi / 2 * mp.mpf("1.0001"), 3)
-odd("tan", mp.tan, mp.pi / 4 * mp.mpf("1.0001"), 5)
+QUARTER = mp.pi / 4 * mp.mpf("1.0001")
+odd("sin", mp.sin, QUARTER, 2)
+fit("cos: 1 - z/2 + z^2 P(z), z = x^2", lambda z: (mp.cos(mp.sqrt(z)) - 1 + z / 2) / z ** 2, lambda z: z ** 2, EPS, QUARTER ** 2, 2,
+    to_float, lambda z, p: (1 - z / 2 + z * z * p) / mp.cos(mp.sqrt(z)) - 1)
+odd("tan", mp.tan, QUARTER, 6)
 odd("asin", mp.asin, mp.mpf("0.5"), 4)
 
 odd("atan", mp.atan, mp.mpf(1), 8)
@@ -78,10 +81,11 @@ fit("log2((1+s)/(1-s)) = s P(s^2), double", lambda z: 2 * mp.atanh(mp.sqrt(z)) /
     EPS, LIMIT, 5, to_double, lambda z, p: p * mp.sqrt(z) * mp.log(2) / 2 / mp.atanh(mp.sqrt(z)) - 1)
 fit("2^x, double", lambda x: mp.mpf(2) ** x, lambda x: mp.mpf(2) ** -x, -mp.mpf("0.5001"), mp.mpf("0.5001"), 7, to_double,
     lambda x, p: p / mp.mpf(2) ** x - 1)
-for name, value, parts in (("pi", mp.pi, 3), ("pi/2", mp.pi / 2, 3), ("ln 2", mp.log(2), 2)):
+for name, value, parts in (("pi", mp.pi, 2), ("pi/2", mp.pi / 2, 3), ("ln 2", mp.log(2), 2)):
     split = []
-    for _ in range(parts):
-        split.append(to_float(value))
+    for _ in range(parts):  # rounded downwards, so that all parts are positive
+        unit = mp.mpf(2) ** (mp.floor(mp.log(value, 2)) - 23)
+        split.append(mp.floor(value / unit) * unit)
         value -= split[-1]
     print(name, "=", " + ".join(float(c).hex() for c in split))
 mp.mp.dps = 90

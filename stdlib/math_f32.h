@@ -11,8 +11,9 @@
 
 namespace moonshade::stdlib::f32 {
 
-inline constexpr float kPi[3] = {0x1.921fb6p+1f, -0x1.777a5cp-24f, -0x1.ee59dap-49f};
-inline constexpr float kHalfPi[3] = {0x1.921fb6p+0f, -0x1.777a5cp-25f, -0x1.ee59dap-50f};
+// All parts are positive, so that no multiple of 0 turns -0 into 0.
+inline constexpr float kPi[2] = {0x1.921fb4p+1f, 0x1.4442d0p-23f};
+inline constexpr float kHalfPi[3] = {0x1.921fb4p+0f, 0x1.4442d0p-24f, 0x1.846988p-48f};
 inline constexpr float kLn2[2] = {0x1.62e430p-1f, -0x1.05c610p-29f};
 
 /// Adding it rounds a float below 2^22 to an integer, which then stands in the lower bits; the same for doubles.
@@ -54,71 +55,75 @@ template <class F> [[gnu::noinline]] static void huge_turns(const F* x, UInt<F>*
   *turns = ((m * window[0]) << half) + m * window[1] + ((m * window[2]) >> half);
 }
 
-/// An angle as a multiple of a unit and a rest; the parity of the multiple stands in the sign bit of `parity`.
+/// An angle x = k pi/2 + rest + tail, |rest| at most pi/4 but for rounding; of k the lower two bits are good.
 template <class F> struct Angle {
-  F rest;
-  UInt32<F> parity;
+  F rest, tail;
+  UInt32<F> k;
 };
 
-/// x less a multiple of the unit.
-template <class F> MS_INLINE F rest_of(F x, F multiple, const float (&unit)[3]) {
-  F rest = fused(multiple, -unit[0], x);
-  rest = fused(multiple, -unit[1], rest);
-  return fused(multiple, -unit[2], rest);
+template <class F> MS_INLINE Angle<F> reduce_huge(F x) {
+  using D = Wide<double, width_of<F>>;
+  using U64 = UInt<F>;
+  U64 turns;
+  huge_turns(&x, &turns);
+  U64 rounded = turns + U64(uint64_t(1) << 61);
+  D fraction = convert<D>(bit_cast<Int<F>>(turns << U64(uint64_t(2)))) * D(0x1.921fb54442d18p+0 * 0x1p-64);
+  fraction = select(less(x, constant<F>(0)), -fraction, fraction);
+  F rest = convert<F>(fraction);
+  UInt32<F> k = convert<UInt32<F>>(rounded >> U64(uint64_t(62)));
+  return {select(less(abs(x), infinity<F>()), rest, not_a_number<F>()), convert<F>(fraction - convert<D>(rest)),
+          select(less(x, constant<F>(0)), UInt32<F>(0u) - k, k)};
 }
 
-/// x = (k + shift) * unit + rest where |rest| is at most half the unit, but for rounding. `unit` is pi / `parts`.
-template <class F> MS_INLINE Angle<F> reduce(F x, const float (&unit)[3], int parts, double shift) {
-  constexpr double inverse_pi = 0x1.45f306dc9c883p-2;
-  F shifted = fused(x, inverse_pi * parts, constant<F>(-shift)) + constant<F>(kRound);
-  F multiple = (shifted - constant<F>(kRound)) + constant<F>(shift);
-  Angle<F> angle = {rest_of(x, multiple, unit), bit_cast<UInt32<F>>(shifted) << UInt32<F>(31u)};
+template <class F> MS_INLINE Angle<F> reduce(F x) {
+  F shifted = fused(x, 0x1.45f306dc9c883p-1, kRound); // 2 / pi
+  F k = shifted - constant<F>(kRound);
+  F exact = fused(k, -kHalfPi[0], x);
+  F rest = fused(k, -kHalfPi[2], fused(k, -kHalfPi[1], exact));
+  // What rounding left of the rest, by Knuth's sum without error; only the tangent asks for it.
+  F product = k * constant<F>(kHalfPi[1]), lost = fused(k, kHalfPi[1], -product);
+  F sum = exact - product, back = sum - exact;
+  F error = (exact - (sum - back)) - (product + back);
+  F tail = (sum - rest) + fused(k, -kHalfPi[2], error - lost);
+  Angle<F> angle = {rest, tail, bit_cast<UInt32<F>>(shifted)};
   auto huge = less(constant<F>(kHugeAngle), abs(x));
   if (any(huge)) {
-    using D = Wide<double, width_of<F>>;
-    UInt<F> turns;
-    huge_turns(&x, &turns);
-    turns = turns * UInt<F>(uint64_t(parts)) - UInt<F>(uint64_t(shift * 0x1p63));
-    D fraction = convert<D>(bit_cast<Int<F>>(turns << UInt<F>(uint64_t(1)))); // of one unit, in -2^63 .. 2^63
-    F rest = convert<F>(fraction * D(0x1.921fb54442d18p+1 * 0x1p-64 / parts));
-    UInt<F> rounded = turns + UInt<F>(uint64_t(1) << 62);
-    auto finite = less(abs(x), infinity<F>());
-    angle.rest = select(huge, select(finite, rest, not_a_number<F>()), angle.rest);
-    angle.parity = select(huge, convert<UInt32<F>>(rounded >> UInt<F>(uint64_t(32))), angle.parity);
+    Angle<F> far = reduce_huge(x);
+    angle.rest = select(huge, far.rest, angle.rest);
+    angle.tail = select(huge, far.tail, angle.tail);
+    angle.k = select(huge, far.k, angle.k);
   }
-  angle.parity &= UInt32<F>(0x80000000u);
   return angle;
 }
-/// The same for a function that is odd in x: huge_turns knows the magnitude only.
-template <class F> MS_INLINE F with_sign_of_huge(F rest, F x) {
-  auto negative = less(x, constant<F>(-kHugeAngle));
-  return select(negative, -rest, rest);
+
+/// The sine of a reduced angle with k quarters added: by turns +-sin and +-cos of the rest.
+template <class F> MS_INLINE F sine(Angle<F> angle, uint32_t quarters) {
+  using U = UInt32<F>;
+  U k = angle.k + U(quarters);
+  F r = angle.rest, z = r * r;
+  F odd = copy_sign(fused(r * z, fused_polynomial(z, {-0x1.555546p-3f, 0x1.110778p-7f, -0x1.995400p-13f}), r), r);
+  F even = fused(z * z, fused_polynomial(z, {0x1.55554ap-5f, -0x1.6c0c22p-10f, 0x1.99e4d4p-16f}),
+                 fused(z, -0.5, constant<F>(1)));
+  F value = select(to_mask<F>((k & U(1u)) == U(0u)), odd, even);
+  return flip_sign(value, (k << U(30u)) & U(0x80000000u));
 }
 
-template <class F> MS_INLINE F sine_of_rest(F r) {
-  F z = r * r;
-  return fused(r * z, fused_polynomial(z, {-0x1.55554cp-3f, 0x1.110edap-7f, -0x1.9f70f0p-13f, 0x1.5dc902p-19f}), r);
-}
-
-template <class F> MS_INLINE F sin(F x) {
-  Angle<F> angle = reduce(x, kPi, 1, 0.0);
-  return flip_sign(sine_of_rest(with_sign_of_huge(angle.rest, x)), angle.parity);
-}
-
-/// cos((k + 1/2) pi + r) = -(-1)^k sin r
-template <class F> MS_INLINE F cos(F x) {
-  Angle<F> angle = reduce(x, kPi, 1, 0.5);
-  return flip_sign(sine_of_rest(angle.rest), angle.parity ^ UInt32<F>(0x80000000u));
-}
+template <class F> MS_INLINE F sin(F x) { return sine(reduce(x), 0); }
+template <class F> MS_INLINE F cos(F x) { return sine(reduce(x), 1); }
 
 /// tan(k pi/2 + r) = tan r for even k, -1 / tan r for odd.
 template <class F> MS_INLINE F tan(F x) {
-  Angle<F> angle = reduce(x, kHalfPi, 2, 0.0);
-  F r = with_sign_of_huge(angle.rest, x), z = r * r;
-  F p = fused_polynomial(
-      z, {0x1.5554dep-2f, 0x1.112ddep-3f, 0x1.b58792p-5f, 0x1.905ccep-6f, 0x1.97c51ap-9f, 0x1.33b3a2p-7f});
-  F t = fused(r * z, p, r);
-  return select(to_mask<F>(angle.parity != UInt32<F>(0u)), constant<F>(-1) / t, t);
+  using U = UInt32<F>;
+  Angle<F> angle = reduce(x);
+  F r = angle.rest, z = r * r;
+  F p = fused_polynomial(z, {0x1.555560p-2f, 0x1.110da0p-3f, 0x1.bad946p-5f, 0x1.5cc668p-6f, 0x1.62ace4p-7f,
+                             0x1.afad24p-14f, 0x1.1e6aa8p-8f});
+  F rise = fused(r * z, p, fused(angle.tail, z, angle.tail)); // tan(r + tail) - r, the slope being near 1 + r^2
+  F t = copy_sign(r + rise, r);
+  F left = rise - (t - r);
+  F inverse = constant<F>(-1) / t;
+  inverse = fused(inverse, fused(inverse, t, fused(inverse, left, constant<F>(1))), inverse);
+  return select(to_mask<F>((angle.k & U(1u)) == U(0u)), t, inverse);
 }
 
 // Inverse functions ---------------------------------------------------------------------------------------------------
