@@ -94,7 +94,11 @@ TypeList Walker::call_function(const CallExpr& expr, const Function& function) {
     context_.analyse(*callee);
   }
   TypeList results;
-  if (callee->has_results) results.types = callee->results;
+  if (callee->has_results) {
+    results.types = callee->results;
+  } else if (callee->has_open_return) {
+    results.open = true;
+  }
   if (context_.report && callee->spec != nullptr) {
     work_.callees[expr.id] = callee;
     ExpressionFact fact;

@@ -3,6 +3,7 @@
 #include "compiler/sema/walker.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace moonshade::sema {
 
@@ -113,7 +114,7 @@ Type Walker::or_expression(const BinaryExpr& expr) {
     for (size_t i = 0; i < arms.size(); ++i) {
       const Type& type = arms[i].type;
       if (is_unknown(type) || type.is(ValueType::Boolean)) continue;
-      fits = false;
+      if (!std::exchange(fits, false)) continue; // the first one says it
       if (i + 1 < arms.size()) {
         require_condition(*arms[i].expr, type);
       } else {

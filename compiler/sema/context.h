@@ -43,6 +43,8 @@ struct Work {
   std::unordered_map<const syntax::Local*, Variable> variables;
   /// Set by the first `return`.
   bool has_results = false;
+  /// Some `return` of the last walk gives values that are not known (an error, or not inferred yet).
+  bool has_open_return = false;
   std::vector<Type> results;
   Span first_return{};
   /// First expression of each result, for messages.

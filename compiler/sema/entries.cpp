@@ -81,6 +81,7 @@ void check_table_result(Context& context, const EntryPlan& plan) {
   const TableEntry& entry = *find_in_table(plan.global->name);
   const Work& work = *plan.work;
   const std::string name(entry.name);
+  if (!work.has_results && work.has_open_return) return; // already refused
   if (work.results.empty()) {
     context.error(Code::EntryResultCount, plan.global->function->end_span, {name, expected_result(entry)});
     return;

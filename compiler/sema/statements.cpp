@@ -11,6 +11,7 @@ using Code = DiagnosticCode;
 
 void Walker::function_body() {
   const Function& function = *work_.function;
+  work_.has_open_return = false;
   if (function.is_vararg && !at_top_level()) error(Code::Varargs, function.span);
   for (size_t i = 0; i < function.params.size(); ++i)
     declare(*function.params[i], i < work_.arguments.size() ? work_.arguments[i] : unknown_type(),
@@ -336,7 +337,10 @@ void Walker::return_values(const ReturnStat& stat) {
           {type.kind == Type::Kind::String ? "strings as results are" : "functions as results are"});
     type = unknown_type();
   }
-  if (list.open) return;
+  if (list.open) {
+    work_.has_open_return = true;
+    return;
+  }
   const auto span_of = [&](size_t i) {
     return stat.values.empty() ? stat.span : stat.values[std::min(i, stat.values.size() - 1)]->span;
   };
