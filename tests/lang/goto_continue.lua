@@ -52,4 +52,4 @@ function nested(frame)
   return count
 end
 -- run: nested frame=0
--- expect: 66
+-- expect: 77

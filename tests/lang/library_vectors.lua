@@ -5,7 +5,7 @@ function products(p, n) return dot(p, n), cross(p, n), length(p), distance(p, n)
 
 function directions(p, n, i) return normalize(p), reflect(i, n), faceforward(n, i, n), refract(i, n, 0.75) end
 -- run: directions p=0,3,4 n=0,0,1 i=0,0,-1
--- expect: 0, 0.59999999999999998, 0.80000000000000004, 0, 0, 1, 0, 0, 1, 0, 0, -1
+-- expect: 0, 0.60000000000000009, 0.80000000000000004, 0, 0, 1, 0, 0, 1, 0, 0, -1
 
 function zero() return normalize(vec3(0)), length(vec2(0)) end
 -- run: zero

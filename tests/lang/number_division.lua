@@ -13,9 +13,9 @@ function divide(time, fw) return time / fw, time // fw, time % fw end
 -- run: divide time=5 fw=inf
 -- expect: 0, 0, 5
 -- run: divide time=-5 fw=inf
--- expect: -0, -1, inf
+-- expect: -0, -0, inf
 -- run: divide time=5 fw=-inf
--- expect: -0, -1, -inf
+-- expect: -0, -0, -inf
 -- run: divide time=-0.0 fw=1
 -- expect: -0, -0, -0
 

@@ -18,7 +18,7 @@ end
 -- run: limit_of_point time=3
 -- expect: 4.5
 -- run: limit_of_point time=nan
--- expect: 0
+-- expect: 0.5
 
 -- integer start and step, limit a number: it is floored
 function floored(time)

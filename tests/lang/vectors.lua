@@ -17,4 +17,4 @@ function flooring(p, n) return p // n, p % n, p ^ 2 end
 
 function flooring_by_number(p, fw) return p // fw, p % fw, p ^ fw, fw ^ p, fw // p, fw % p end
 -- run: flooring_by_number p=1,-2,3 fw=2
--- expect: 0, -1, 1, 1, 0, 1, 1, 4, 9, 2, 0.25, 8, 2, -1, 0, 0, 0, 2
+-- expect: 0, -1, 1, 1, -0, 1, 1, 4, 9, 2, 0.25, 8, 2, -1, 0, 0, 0, 2

@@ -57,33 +57,33 @@ ParsedOptions parse_options(int argc, char** argv) {
   std::string precision = "f32", width = "auto";
   app.set_help_flag("-h,--help", "Print this help")->group("Reports");
   app.set_version_flag("--version", version(), "Print the version")->group("Reports");
-  app.add_option("SHADER", options.files, "Shaders; without any: the gallery")->type_name("SHADER.lua ...");
+  app.add_option("SHADER", options.files, "Shaders; without any: the gallery")->option_text("SHADER.lua ...");
   app.add_option("--entry", options.entries, "Only this entry point (repeatable)")
-      ->type_name("NAME")
+      ->option_text("NAME")
       ->allow_extra_args(false)
       ->group("What to measure");
   app.add_option("--points", options.points, "Points (default 65536)")
-      ->type_name("N")
+      ->option_text("N")
       ->check(CLI::Range(size_t{1}, size_t{1} << 26))
       ->group("What to measure");
   app.add_option("--threads", options.threads, "Threads, for every mode (default 1)")
-      ->type_name("N")
+      ->option_text("N")
       ->check(CLI::Range(1u, 1024u))
       ->group("What to measure");
   app.add_option("--repetitions", options.repetitions, "Of each measurement, the best of which counts (default 5)")
-      ->type_name("N")
+      ->option_text("N")
       ->check(CLI::Range(1u, 1000u))
       ->group("What to measure");
   app.add_option("--precision", precision, "Of compiled code (default f32)")
-      ->type_name("f32|f64")
+      ->option_text("f32|f64")
       ->check(CLI::IsMember({"f32", "f64"}))
       ->group("What to measure");
   app.add_option("--width", width, "Lanes of the simd rows (default auto)")
-      ->type_name("auto|4|8|16|32")
+      ->option_text("auto|4|8|16|32")
       ->check(CLI::IsMember({"auto", "1", "4", "8", "16", "32"}))
       ->group("What to measure");
   app.add_flag("--json", options.json, "Print an array of objects instead of a table")->group("Reports");
-  app.add_option("--plot", options.plot, "Draw a bar chart")->type_name("FILE.svg")->group("Reports");
+  app.add_option("--plot", options.plot, "Draw a bar chart")->option_text("FILE.svg")->group("Reports");
   app.footer(kNotes);
   try {
     app.parse(argc, argv);

@@ -35,10 +35,10 @@ struct Raw {
 void add_output_options(CLI::App& app, Options& options, Raw& raw) {
   const char* group = "What to do (default: check)";
   app.add_option("--emit", raw.emit, "Write that stage")
-      ->type_name("ast|ir|llvm|asm|obj|header")
+      ->option_text("ast|ir|llvm|asm|obj|header")
       ->check(CLI::IsMember({"ast", "ir", "llvm", "asm", "obj", "header"}))
       ->group(group);
-  app.add_option("-o", options.output, "File for --emit; - = standard output")->type_name("FILE")->group(group);
+  app.add_option("-o", options.output, "File for --emit; - = standard output")->option_text("FILE")->group(group);
   app.add_flag("--describe", options.describe, "Print entries, parameters, modules and images as JSON")->group(group);
   app.add_flag("--run", options.run, "Evaluate one entry point and print its results")->group(group);
 }
@@ -46,16 +46,16 @@ void add_output_options(CLI::App& app, Options& options, Raw& raw) {
 void add_run_options(CLI::App& app, Options& options) {
   const char* group = "With --run";
   app.add_option("--input", options.inputs, "An input, such as p=1,2,3 (repeatable)")
-      ->type_name("NAME=VALUE")
+      ->option_text("NAME=VALUE")
       ->allow_extra_args(false)
       ->group(group);
   app.add_option("--points", options.points,
                  "A CSV of points; its header names the inputs' components: p.x,p.y,p.z,time")
-      ->type_name("FILE.csv")
+      ->option_text("FILE.csv")
       ->group(group);
   app.add_flag("--interpret", options.interpret, "Run by stock Lua 5.4, in double, instead of compiling")->group(group);
   app.add_option("-D", options.definitions, "Override a parameter: -D scale=2, -D tint=0.2,0.4,1 (repeatable)")
-      ->type_name("NAME=VALUE")
+      ->option_text("NAME=VALUE")
       ->allow_extra_args(false)
       ->group(group);
 }
@@ -63,25 +63,25 @@ void add_run_options(CLI::App& app, Options& options) {
 void add_compile_options(CLI::App& app, Options& options, Raw& raw) {
   const char* group = "Compilation";
   app.add_option("--entry", options.compile.entries, "Only this entry point (repeatable)")
-      ->type_name("NAME")
+      ->option_text("NAME")
       ->allow_extra_args(false)
       ->group(group);
   app.add_option("--precision", raw.precision, "Of numbers (default f32)")
-      ->type_name("f32|f64")
+      ->option_text("f32|f64")
       ->check(CLI::IsMember({"f32", "f64"}))
       ->group(group);
   app.add_option("--width", raw.width, "Lanes (default auto: the best for the target)")
-      ->type_name("auto|1|4|8|16|32")
+      ->option_text("auto|1|4|8|16|32")
       ->check(CLI::IsMember({"auto", "1", "4", "8", "16", "32"}))
       ->group(group);
   app.add_option("--cpu", options.compile.cpu, "As clang's -march (default native)")
-      ->type_name("native|NAME")
+      ->option_text("native|NAME")
       ->group(group);
   app.add_option("--target", options.compile.target, "Target triple (default this machine's)")
-      ->type_name("TRIPLE")
+      ->option_text("TRIPLE")
       ->group(group);
   app.add_option("-O", raw.optimization, "Level of optimisation, -O0 to -O3 (default -O2)")
-      ->type_name("0|1|2|3")
+      ->option_text("0|1|2|3")
       ->check(CLI::IsMember({"0", "1", "2", "3"}))
       ->group(group);
 }
@@ -89,7 +89,7 @@ void add_compile_options(CLI::App& app, Options& options, Raw& raw) {
 void add_report_options(CLI::App& app, Options& options, Raw& raw) {
   const char* group = "Reports";
   app.add_option("--diagnostics", raw.diagnostics, "Form of the diagnostics on standard error")
-      ->type_name("text|json|sarif")
+      ->option_text("text|json|sarif")
       ->check(CLI::IsMember({"text", "json", "sarif"}))
       ->group(group);
   app.add_flag("--time-report", options.time_report, "Print the time of each stage on standard error")->group(group);
@@ -99,11 +99,11 @@ void add_report_options(CLI::App& app, Options& options, Raw& raw) {
 void add_unavailable_options(CLI::App& app, Raw& raw) {
   const char* group = "Not available yet";
   app.add_option("-I", raw.module_path, "Module path for require")
-      ->type_name("DIR")
+      ->option_text("DIR")
       ->allow_extra_args(false)
       ->group(group);
   app.add_flag("--remarks", raw.remarks, "What the optimiser decided")->group(group);
-  app.add_option("--cache-dir", raw.cache_dir, "Folder of the object cache")->type_name("DIR")->group(group);
+  app.add_option("--cache-dir", raw.cache_dir, "Folder of the object cache")->option_text("DIR")->group(group);
   app.add_flag("--no-cache", raw.no_cache, "Do without the object cache")->group(group);
   app.add_flag("--bake", raw.bake, "Compile parameters as constants")->group(group);
 }
@@ -195,7 +195,7 @@ ParsedOptions parse_options(int argc, char** argv) {
   Raw raw;
   app.set_help_flag("-h,--help", "Print this help")->group("Reports");
   app.set_version_flag("--version", version(), "Print the version")->group("Reports");
-  app.add_option("FILE", options.files, "Shaders")->type_name("FILE.lua ...");
+  app.add_option("FILE", options.files, "Shaders")->option_text("FILE.lua ...");
   add_output_options(app, options, raw);
   add_run_options(app, options);
   add_compile_options(app, options, raw);

@@ -1,0 +1,8 @@
+local function f(...)
+  return ...
+end
+function height(p)
+  return f(p.x)
+end
+-- error: 1:7 varargs
+-- error: 2:10 varargs
