@@ -165,7 +165,9 @@ void Generator::jump_stat(int depth) {
   case 8:
     return put("f()");
   case 9:
-    return put("repeat"), jumps(depth - 1), put("until"), put(pick(kNames));
+    put("repeat");
+    if (chance(40)) put("if a then goto l end"), jumps(depth - 1), put(chance(50) ? "local x" : ""), put("::l::");
+    return jumps(depth - 1), put("until"), put(pick(kNames));
   case 10:
     return put("if a then"), jumps(depth - 1), put(chance(50) ? "else" : "elseif b then"), jumps(depth - 1), put("end");
   case 11:
