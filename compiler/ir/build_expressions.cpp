@@ -114,6 +114,7 @@ FunctionBuild::Values FunctionBuild::evaluate_list(std::span<Expr* const> exprs)
 // -----------------------------------------------------------------------------------------------------------
 
 ValueId FunctionBuild::constant(const ExpressionFact& known) {
+  if (known.type.is(ValueType::Boolean)) return b_.boolean(known.integer_constant != 0);
   return known.type.is(ValueType::Integer) ? b_.integer(known.integer_constant) : b_.number(known.constant);
 }
 
@@ -158,13 +159,11 @@ ValueId FunctionBuild::index(const IndexExpr& expr) {
 
 ValueId FunctionBuild::unary(const UnaryExpr& expr) {
   const ExpressionFact& known = fact(expr);
+  if (known.form == OperatorForm::Constant) return constant(known);
   switch (expr.op) {
-  case UnaryOp::Len: {
-    // Of strings only: constants.
-    const Expr& operand = without_parens(*expr.operand);
-    const auto* literal = try_as<StringExpr>(&operand);
-    return b_.integer(static_cast<int64_t>(literal ? literal->value.size() : fact(operand).type.text.size()));
-  }
+  case UnaryOp::Len:
+    defect("a length that is no constant");
+    return b_.integer(0);
   case UnaryOp::Not:
     return b_.unary(Op::Not, evaluate_as(*expr.operand, ValueType::Boolean));
   case UnaryOp::BitNot:
@@ -182,6 +181,7 @@ ValueId FunctionBuild::unary(const UnaryExpr& expr) {
 
 ValueId FunctionBuild::binary(const BinaryExpr& expr) {
   const ExpressionFact& known = fact(expr);
+  if (known.form == OperatorForm::Constant) return constant(known);
   switch (expr.op) {
   case BinaryOp::Or:
     return known.form == OperatorForm::Conditional ? conditional(expr, known.type.value) : logical(expr);

@@ -1,0 +1,93 @@
+// For tests: the rows of the library's table, called natively over double.
+#include "compiler/ir/test_interpreter.h"
+#include "stdlib/signature.h"
+
+#include <cstdlib>
+#include <unordered_map>
+
+namespace moonshade::ir::test {
+namespace {
+
+using namespace stdlib;
+
+#define FUNCTION(name, symbol, function, type, defaults, traits, parameters, doc) MS_ROW(symbol, function, type)
+#define DEFAULTS(...)
+#include "stdlib/table.def"
+
+template <class T> struct Passing;
+template <> struct Passing<double> {
+  static double get(const Value& value) { return value.numbers[0]; }
+  static Value put(double x) { return Value::of(x); }
+};
+template <> struct Passing<int64_t> {
+  static int64_t get(const Value& value) { return value.integer; }
+  static Value put(int64_t x) { return Value::of(x); }
+};
+template <> struct Passing<Mask<double>> {
+  static Mask<double> get(const Value& value) { return {value.boolean}; }
+  static Value put(Mask<double> x) { return Value::of(x.bits); }
+};
+template <int N> struct Passing<Vec<N, double>> {
+  static Vec<N, double> get(const Value& value) {
+    Vec<N, double> v;
+    for (int i = 0; i < N; ++i)
+      v[i] = value.numbers[i];
+    return v;
+  }
+  static Value put(const Vec<N, double>& v) {
+    Value value = Value::of(0.0);
+    value.type = vector_type(N);
+    for (int i = 0; i < N; ++i)
+      value.numbers[i] = v[i];
+    return value;
+  }
+};
+
+template <class R> void put_results(const R& result, std::vector<Value>& out) {
+  out.push_back(Passing<R>::put(result));
+}
+template <class A, class B> void put_results(const Results<A, B>& result, std::vector<Value>& out) {
+  out.push_back(Passing<A>::put(result.first));
+  out.push_back(Passing<B>::put(result.second));
+}
+
+template <class Row, class Type> struct Native;
+template <class Row, class R, class... A> struct Native<Row, R(A...)> {
+  static std::vector<Value> call(const std::vector<Value>& operands) {
+    return [&]<size_t... I>(std::index_sequence<I...>) {
+      std::vector<Value> out;
+      put_results(Row::call(Passing<A>::get(operands[I])...), out);
+      return out;
+    }(std::index_sequence_for<A...>());
+  }
+};
+
+using NativeFunction = std::vector<Value> (*)(const std::vector<Value>&);
+
+const std::unordered_map<std::string_view, NativeFunction>& natives() {
+  static const std::unordered_map<std::string_view, NativeFunction> kNatives = {
+#define FUNCTION(name, symbol, function, type, defaults, traits, parameters, doc)                                      \
+  {#symbol, &Native<Row_##symbol::Of<double>, Row_##symbol::Of<double>::Type>::call},
+#define DEFAULTS(...)
+#include "stdlib/table.def"
+  };
+  return kNatives;
+}
+
+} // namespace
+
+std::vector<Value> call_native(const LibraryFunction& row, ValueType type, const std::vector<Value>& operands) {
+  const NativeFunction function = natives().at(row.symbol);
+  if (!row.componentwise || !is_vector(type)) return function(operands);
+  Value result;
+  result.type = type;
+  for (unsigned i = 0; i < component_count(type); ++i) {
+    std::vector<Value> parts;
+    for (const Value& operand : operands)
+      parts.push_back(Value::of(operand.numbers[is_vector(operand.type) ? i : 0]));
+    result.numbers[i] = function(parts)[0].numbers[0];
+  }
+  return {result};
+}
+
+} // namespace moonshade::ir::test
