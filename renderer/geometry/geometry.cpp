@@ -1,0 +1,193 @@
+// Objects in world space and Embree's scene over them. Rays go one by one: packets would be a little faster for camera
+// rays, but which of two equal hits a packet reports depends on the other rays in it.
+#include "renderer/geometry/geometry.h"
+
+#include "renderer/geometry/embree_api.h"
+#include "renderer/geometry/float_environment.h"
+
+namespace moonshade::renderer {
+
+struct Geometry::Embree {
+  RTCDevice device = nullptr;
+  RTCScene scene = nullptr;
+  std::string error;
+
+  ~Embree() {
+    if (scene) rtcReleaseScene(scene);
+    if (device) rtcReleaseDevice(device);
+  }
+};
+
+Geometry::Geometry() : embree_(std::make_unique<Embree>()) {}
+Geometry::~Geometry() = default;
+
+namespace {
+
+PlacedObject place(const Object& object) {
+  PlacedObject placed;
+  placed.object = &object;
+  DMat4 m(object.to_world);
+  placed.to_object = glm::inverse(m);
+  placed.linear = Mat3(object.to_world);
+  placed.normal_matrix = Mat3(glm::transpose(DMat3(placed.to_object)));
+  double determinant = glm::determinant(DMat3(m));
+  placed.mirrored = determinant < 0;
+  placed.identity = object.to_world == Mat4(1.0f);
+  placed.scale = float(std::cbrt(std::abs(determinant)));
+  Box box;
+  if (object.shape == Shape::Sphere) {
+    placed.extent = 2 * object.radius;
+    return placed;
+  }
+  placed.vertices.reserve(object.mesh->positions.size() + 1);
+  for (const Vec3& p : object.mesh->positions) {
+    placed.vertices.push_back(placed.identity ? p : Vec3(m * glm::dvec4(DVec3(p), 1.0)));
+    if (is_finite(p)) box.add(p);
+  }
+  placed.vertices.push_back(Vec3(0));
+  placed.extent = box.empty() ? 1.0f : max_component(box.high - box.low);
+  return placed;
+}
+
+void sphere_bounds(const RTCBoundsFunctionArguments* args) {
+  const auto& placed = *static_cast<const PlacedObject*>(args->geometryUserPtr);
+  Box box = bounds_of(*placed.object);
+  Vec3 slack = (glm::abs(box.low) + glm::abs(box.high)) * 1e-6f; // the box is computed in float
+  box.low -= slack;
+  box.high += slack;
+  args->bounds_o->lower_x = box.low.x, args->bounds_o->lower_y = box.low.y, args->bounds_o->lower_z = box.low.z;
+  args->bounds_o->upper_x = box.high.x, args->bounds_o->upper_y = box.high.y, args->bounds_o->upper_z = box.high.z;
+}
+
+/// The nearest crossing within the ray's range, or infinity.
+float sphere_distance(const PlacedObject& placed, RTCRayN* ray, unsigned count, unsigned i) {
+  Vec3 origin(RTCRayN_org_x(ray, count, i), RTCRayN_org_y(ray, count, i), RTCRayN_org_z(ray, count, i));
+  Vec3 direction(RTCRayN_dir_x(ray, count, i), RTCRayN_dir_y(ray, count, i), RTCRayN_dir_z(ray, count, i));
+  float near = RTCRayN_tnear(ray, count, i), far = RTCRayN_tfar(ray, count, i);
+  double first, second;
+  if (!intersect_sphere(placed, origin, direction, first, second)) return kInfinity;
+  if (float(first) > near && float(first) < far) return float(first);
+  if (float(second) > near && float(second) < far) return float(second);
+  return kInfinity;
+}
+
+void sphere_intersect(const RTCIntersectFunctionNArguments* args) {
+  const auto& placed = *static_cast<const PlacedObject*>(args->geometryUserPtr);
+  RTCRayN* ray = RTCRayHitN_RayN(args->rayhit, args->N);
+  RTCHitN* hit = RTCRayHitN_HitN(args->rayhit, args->N);
+  for (unsigned i = 0; i < args->N; ++i) {
+    if (!args->valid[i]) continue;
+    float distance = sphere_distance(placed, ray, args->N, i);
+    if (distance == kInfinity) continue;
+    RTCRayN_tfar(ray, args->N, i) = distance;
+    RTCHitN_geomID(hit, args->N, i) = args->geomID;
+    RTCHitN_primID(hit, args->N, i) = args->primID;
+    RTCHitN_instID(hit, args->N, i, 0) = args->context->instID[0];
+  }
+}
+
+void sphere_occluded(const RTCOccludedFunctionNArguments* args) {
+  const auto& placed = *static_cast<const PlacedObject*>(args->geometryUserPtr);
+  for (unsigned i = 0; i < args->N; ++i)
+    if (args->valid[i] && sphere_distance(placed, args->ray, args->N, i) != kInfinity)
+      RTCRayN_tfar(args->ray, args->N, i) = -kInfinity;
+}
+
+void set_ray(RTCRay& out, const Ray& ray) {
+  out.org_x = ray.origin.x, out.org_y = ray.origin.y, out.org_z = ray.origin.z;
+  out.dir_x = ray.direction.x, out.dir_y = ray.direction.y, out.dir_z = ray.direction.z;
+  out.tnear = ray.near, out.tfar = ray.far;
+  out.time = 0;
+  out.mask = UINT32_MAX;
+  out.id = 0;
+  out.flags = 0;
+}
+
+} // namespace
+
+bool intersect_sphere(const PlacedObject& placed, const Vec3& origin, const Vec3& direction, double& first,
+                      double& second) {
+  DVec3 o(placed.to_object * glm::dvec4(DVec3(origin), 1.0));
+  DVec3 d(placed.to_object * glm::dvec4(DVec3(direction), 0.0));
+  double radius = placed.object->radius;
+  double a = glm::dot(d, d), b = glm::dot(o, d);
+  // The discriminant from the distance of the line to the centre: no cancellation far away.
+  DVec3 nearest = o - d * (b / a);
+  double inside = radius * radius - glm::dot(nearest, nearest);
+  if (!(inside >= 0) || !(a > 0)) return false;
+  double half = std::sqrt(inside / a);
+  first = -b / a - half;
+  second = -b / a + half;
+  return true;
+}
+
+std::unique_ptr<Geometry> Geometry::build(const Scene& scene, std::string& error) {
+  std::unique_ptr<Geometry> geometry(new Geometry);
+  geometry->objects_.reserve(scene.objects.size()); // Embree keeps pointers to its elements
+  for (const Object& object : scene.objects) {
+    geometry->objects_.push_back(place(object));
+    geometry->bounds_.add(bounds_of(object));
+  }
+  DefaultFloatEnvironment restore; // committing flushes denormals in this thread
+  if (!geometry->commit(error)) return nullptr;
+  return geometry;
+}
+
+bool Geometry::commit(std::string& error) {
+  Embree& e = *embree_;
+  e.device = rtcNewDevice(nullptr);
+  if (!e.device) return error = "Embree finds no device", false;
+  rtcSetDeviceErrorFunction(
+      e.device, [](void* user, RTCError, const char* text) { static_cast<Embree*>(user)->error = text ? text : "?"; },
+      &e);
+  e.scene = rtcNewScene(e.device);
+  rtcSetSceneFlags(e.scene, RTC_SCENE_FLAG_ROBUST);
+  for (unsigned id = 0; id < objects_.size(); ++id) {
+    PlacedObject& placed = objects_[id];
+    bool mesh = placed.object->shape == Shape::Mesh;
+    RTCGeometry geometry = rtcNewGeometry(e.device, mesh ? RTC_GEOMETRY_TYPE_TRIANGLE : RTC_GEOMETRY_TYPE_USER);
+    if (mesh) {
+      const auto& triangles = placed.object->mesh->triangles;
+      rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, placed.vertices.data(), 0,
+                                 sizeof(Vec3), placed.vertices.size() - 1);
+      rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, triangles.data(), 0,
+                                 sizeof(Mesh::Corners), triangles.size());
+    } else {
+      rtcSetGeometryUserPrimitiveCount(geometry, 1);
+      rtcSetGeometryUserData(geometry, &placed);
+      rtcSetGeometryBoundsFunction(geometry, sphere_bounds, nullptr);
+      rtcSetGeometryIntersectFunction(geometry, sphere_intersect);
+      rtcSetGeometryOccludedFunction(geometry, sphere_occluded);
+    }
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometryByID(e.scene, geometry, id);
+    rtcReleaseGeometry(geometry);
+  }
+  rtcCommitScene(e.scene);
+  if (!e.error.empty()) return error = "Embree: " + e.error, false;
+  return true;
+}
+
+void Geometry::closest(std::span<const Ray> rays, Hit* hits) const {
+  for (size_t i = 0; i < rays.size(); ++i) {
+    RTCRayHit query;
+    set_ray(query.ray, rays[i]);
+    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    query.hit.primID = 0;
+    query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    embree_intersect(embree_->scene, query);
+    hits[i] =
+        query.hit.geomID == RTC_INVALID_GEOMETRY_ID ? Hit{} : Hit{query.hit.geomID, query.hit.primID, query.ray.tfar};
+  }
+}
+
+void Geometry::occluded(std::span<const Ray> rays, uint8_t* blocked) const {
+  for (size_t i = 0; i < rays.size(); ++i) {
+    RTCRay query;
+    set_ray(query, rays[i]);
+    embree_occluded(embree_->scene, query);
+    blocked[i] = query.tfar < 0;
+  }
+}
+
+} // namespace moonshade::renderer

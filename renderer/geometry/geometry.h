@@ -1,0 +1,90 @@
+// The scene's shapes, placed in the world and ready for rays. Embree finds which primitive a ray meets; where it meets
+// it is computed here again from the ids, in double, so that points do not depend on Embree's instruction set.
+#pragma once
+
+#include "renderer/scene/scene.h"
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace moonshade::renderer {
+
+struct Ray {
+  Vec3 origin{0};
+  float near = 0;
+  Vec3 direction{0};
+  float far = kInfinity;
+};
+
+struct Hit {
+  static constexpr uint32_t kNone = UINT32_MAX;
+  uint32_t object = kNone;
+  uint32_t primitive = 0;
+  float distance = 0;
+  bool found() const { return object != kNone; }
+};
+
+/// What there is to know of a point on a surface. Normals point outward, not yet to the viewer.
+struct SurfacePoint {
+  Vec3 world{0}, local{0}; ///< in world and object space
+  Vec3 geometric_normal{0}, shading_normal{0};
+  Vec2 uv{0};
+  Vec3 dpdu{0}, dpdv{0};
+  float distance = 0; ///< along the ray
+  float offset = 0;   ///< how far a ray must start from the surface not to meet it again
+};
+
+/// One object, placed.
+struct PlacedObject {
+  const Object* object = nullptr;
+  std::vector<Vec3> vertices; ///< of a mesh, in world space; one more at the end, for Embree's wide loads
+  DMat4 to_object{1.0};
+  Mat3 linear{1.0f};        ///< of the object's matrix
+  Mat3 normal_matrix{1.0f}; ///< inverse transpose of `linear`
+  bool mirrored = false;
+  bool identity = false;
+  float scale = 1;  ///< mean scale of the object's matrix
+  float extent = 1; ///< largest side of the object's box in object space
+
+  uint32_t material_of(uint32_t primitive) const {
+    if (object->shape != Shape::Mesh || object->mesh->material_slots.empty()) return object->materials[0];
+    return object->materials[object->mesh->material_slots[primitive]];
+  }
+};
+
+class Geometry {
+public:
+  /// Keeps a reference to the scene's objects. Null and an error where Embree fails (memory).
+  static std::unique_ptr<Geometry> build(const Scene& scene, std::string& error);
+  ~Geometry();
+  Geometry(const Geometry&) = delete;
+  Geometry& operator=(const Geometry&) = delete;
+
+  std::span<const PlacedObject> objects() const { return objects_; }
+  const Box& bounds() const { return bounds_; }
+
+  void closest(std::span<const Ray> rays, Hit* hits) const;
+  /// 1 where something lies between near and far.
+  void occluded(std::span<const Ray> rays, uint8_t* blocked) const;
+
+  SurfacePoint surface(const Ray& ray, const Hit& hit) const;
+
+private:
+  struct Embree;
+  Geometry();
+  bool commit(std::string& error);
+  SurfacePoint triangle_point(const PlacedObject& placed, const Ray& ray, const Hit& hit) const;
+  SurfacePoint sphere_point(const PlacedObject& placed, const Ray& ray, const Hit& hit) const;
+
+  std::vector<PlacedObject> objects_;
+  Box bounds_;
+  std::unique_ptr<Embree> embree_;
+};
+
+/// Distances at which a ray meets the sphere of an object, in order; false where it does not.
+bool intersect_sphere(const PlacedObject& placed, const Vec3& origin, const Vec3& direction, double& first,
+                      double& second);
+
+} // namespace moonshade::renderer

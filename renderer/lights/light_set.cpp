@@ -1,0 +1,292 @@
+// Densities: uniform over area for meshes (weighted by luminance), over the visible cone for spheres and the sun, by
+// bands of equal solid angle for the sky.
+#include "renderer/lights/light_set.h"
+
+#include "renderer/sampling/warp.h"
+
+namespace moonshade::renderer {
+
+static constexpr int kSkyBands = 256;
+
+Vec3 LightSet::sky_radiance(const Light& light, float height) {
+  if (height >= 0) return glm::mix(light.horizon, light.zenith, std::sqrt(std::min(height, 1.0f)));
+  float t = std::min(-height * 20, 1.0f);
+  return glm::mix(light.horizon, light.ground, t * t * (3 - 2 * t));
+}
+
+static uint32_t sky_band(float height) {
+  return uint32_t(std::clamp(int((height + 1) * 0.5f * kSkyBands), 0, kSkyBands - 1));
+}
+
+float LightSet::sky_pdf(const Entry& entry, float height) {
+  uint32_t band = sky_band(height);
+  float share = entry.cumulative[band] - (band ? entry.cumulative[band - 1] : 0.0f);
+  return share * kSkyBands / (4 * kPi);
+}
+
+/// Index of the first cumulative share above `u`, and `u` made uniform again within it.
+static uint32_t choose(const std::vector<float>& cumulative, float& u) {
+  auto found = std::upper_bound(cumulative.begin(), cumulative.end() - 1, u);
+  uint32_t index = uint32_t(found - cumulative.begin());
+  float low = index ? cumulative[index - 1] : 0, share = cumulative[index] - low;
+  u = share > 0 ? std::clamp((u - low) / share, 0.0f, 0x1.fffffep-1f) : 0.0f;
+  return index;
+}
+
+/// Running shares of the sum; false where all weights are zero.
+static bool accumulate(std::vector<float>& weights) {
+  double sum = 0;
+  for (float w : weights)
+    sum += w;
+  if (!(sum > 0) || !std::isfinite(sum)) return false;
+  double running = 0;
+  for (float& w : weights)
+    w = float((running += w) / sum);
+  return true;
+}
+
+LightSet::LightSet(const Scene& scene, const Geometry& geometry, std::span<const std::optional<Vec3>> emission)
+    : geometry_(geometry), scene_(scene), light_of_object_(scene.objects.size(), -1) {
+  for (const Light& light : scene.lights) {
+    if (light.kind == LightKind::Sky) {
+      add_sky(light);
+    } else if (!is_black(light.color)) {
+      Entry entry;
+      entry.kind = light.kind == LightKind::Sun ? Kind::Sun : Kind::Point;
+      entry.light = light;
+      float sine = std::sin(0.25f * light.angle * kPi / 180);
+      entry.one_minus_cos = 2 * sine * sine;
+      if (entry.kind == Kind::Sun) environment_.push_back(uint32_t(lights_.size()));
+      lights_.push_back(std::move(entry));
+    }
+  }
+  for (uint32_t id = 0; id < scene.objects.size(); ++id) {
+    const PlacedObject& placed = geometry.objects()[id];
+    if (placed.object->shape == Shape::Mesh) {
+      add_mesh(placed, id, emission);
+    } else if (auto constant = emission[placed.object->materials[0]]; constant && !is_black(*constant)) {
+      add_sphere(placed, id, *constant);
+    }
+  }
+}
+
+void LightSet::add_sky(const Light& light) {
+  Entry entry;
+  entry.kind = Kind::Sky;
+  entry.light = light;
+  for (int band = 0; band < kSkyBands; ++band)
+    entry.cumulative.push_back(luminance(sky_radiance(light, (band + 0.5f) * 2 / kSkyBands - 1)));
+  // Irradiance by the normal's height: rings of equal solid angle, each over all azimuths.
+  constexpr int kNormals = 65, kAzimuths = 64;
+  irradiance_.resize(kNormals);
+  for (int i = 0; i < kNormals; ++i) {
+    float y = -1 + 2.0f * i / (kNormals - 1), x = std::sqrt(std::max(0.0f, 1 - y * y));
+    Vec3 sum(0);
+    for (int band = 0; band < kSkyBands; ++band) {
+      float h = (band + 0.5f) * 2 / kSkyBands - 1, r = std::sqrt(1 - h * h);
+      float cosines = 0;
+      for (int a = 0; a < kAzimuths; ++a)
+        cosines += std::max(0.0f, x * r * std::cos((a + 0.5f) * 2 * kPi / kAzimuths) + y * h);
+      sum += sky_radiance(light, h) * (cosines / kAzimuths);
+    }
+    irradiance_[i] += sum * (4 * kPi / kSkyBands);
+  }
+  if (!accumulate(entry.cumulative)) return; // black
+  environment_.push_back(uint32_t(lights_.size()));
+  lights_.push_back(std::move(entry));
+}
+
+void LightSet::add_mesh(const PlacedObject& placed, uint32_t id, std::span<const std::optional<Vec3>> emission) {
+  const Mesh& mesh = *placed.object->mesh;
+  bool emits = false;
+  for (uint32_t m : placed.object->materials)
+    emits |= emission[m] && !is_black(*emission[m]);
+  if (!emits) return;
+  Entry entry;
+  entry.kind = Kind::Mesh;
+  entry.object = id;
+  entry.triangle_pdf.assign(mesh.triangles.size(), 0.0f);
+  std::vector<float> brightness;
+  double sum = 0;
+  for (uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    uint32_t material = placed.material_of(t);
+    const std::optional<Vec3>& e = emission[material];
+    if (!e || !(luminance(*e) > 0)) continue;
+    entry.one_sided = scene_.materials[material].emits_outward_only;
+    const Mesh::Corners& c = mesh.triangles[t];
+    float area = 0.5f * glm::length(glm::cross(placed.vertices[c[1]] - placed.vertices[c[0]],
+                                               placed.vertices[c[2]] - placed.vertices[c[0]]));
+    entry.triangles.push_back(t);
+    entry.triangle_emission.push_back(*e);
+    entry.cumulative.push_back(area * luminance(*e));
+    brightness.push_back(luminance(*e));
+    sum += entry.cumulative.back();
+  }
+  if (entry.triangles.empty() || !accumulate(entry.cumulative)) return;
+  for (size_t i = 0; i < entry.triangles.size(); ++i)
+    entry.triangle_pdf[entry.triangles[i]] = float(brightness[i] / sum);
+  light_of_object_[id] = int32_t(lights_.size());
+  lights_.push_back(std::move(entry));
+}
+
+void LightSet::add_sphere(const PlacedObject& placed, uint32_t id, const Vec3& emission) {
+  // A cone holds a sphere only where the object's matrix keeps it round.
+  Mat3 gram = glm::transpose(placed.linear) * placed.linear;
+  float s = placed.scale * placed.scale;
+  for (int c = 0; c < 3; ++c)
+    for (int r = 0; r < 3; ++r)
+      if (std::abs(gram[c][r] - (c == r ? s : 0)) > 1e-4f * s) return;
+  Entry entry;
+  entry.kind = Kind::Sphere;
+  entry.object = id;
+  entry.center = Vec3(placed.object->to_world[3]);
+  entry.radius = placed.object->radius * placed.scale;
+  entry.emission = emission;
+  light_of_object_[id] = int32_t(lights_.size());
+  lights_.push_back(std::move(entry));
+}
+
+Vec3 LightSet::environment(const Vec3& direction) const {
+  Vec3 sum(0);
+  for (uint32_t id : environment_) {
+    const Entry& e = lights_[id];
+    if (e.kind == Kind::Sky) {
+      sum += sky_radiance(e.light, direction.y);
+    } else if (e.one_minus_cos > 0) {
+      Vec3 apart = direction - e.light.direction; // |apart|^2 = 2 (1 - cos): exact for small angles
+      if (glm::dot(apart, apart) <= 2 * e.one_minus_cos) sum += e.light.color / (2 * kPi * e.one_minus_cos);
+    }
+  }
+  return sum;
+}
+
+float LightSet::environment_pdf(const Vec3& direction) const {
+  float sum = 0;
+  for (uint32_t id : environment_) {
+    const Entry& e = lights_[id];
+    if (e.kind == Kind::Sky) {
+      sum += sky_pdf(e, direction.y);
+    } else if (e.one_minus_cos > 0) {
+      Vec3 apart = direction - e.light.direction;
+      if (glm::dot(apart, apart) <= 2 * e.one_minus_cos) sum += 1 / (2 * kPi * e.one_minus_cos);
+    }
+  }
+  return sum / float(lights_.size());
+}
+
+LightSample LightSet::sample_environment(const Vec3& direction) const {
+  return {direction, kInfinity, environment(direction), environment_pdf(direction), false};
+}
+
+LightSample LightSet::sample_mesh(const Entry& entry, const Vec3& point, const Vec2& u) const {
+  float first = u.x;
+  uint32_t index = choose(entry.cumulative, first);
+  uint32_t triangle = entry.triangles[index];
+  const PlacedObject& placed = geometry_.objects()[entry.object];
+  const Mesh::Corners& c = placed.object->mesh->triangles[triangle];
+  const Vec3 &a = placed.vertices[c[0]], &b = placed.vertices[c[1]], &d = placed.vertices[c[2]];
+  float root = std::sqrt(first);
+  Vec3 at = a * (1 - root) + b * (root * (1 - u.y)) + d * (root * u.y);
+  Vec3 to = at - point;
+  float squared = glm::dot(to, to);
+  LightSample sample;
+  if (!(squared > 0)) return sample;
+  sample.distance = std::sqrt(squared);
+  sample.direction = to / sample.distance;
+  Vec3 normal = normalize_or(glm::cross(b - a, d - a), Vec3(0)) * (placed.mirrored ? -1.0f : 1.0f);
+  float cosine = -glm::dot(normal, sample.direction);
+  if (cosine == 0 || (entry.one_sided && cosine < 0)) return sample;
+  sample.pdf = entry.triangle_pdf[triangle] * squared / std::abs(cosine);
+  sample.radiance = entry.triangle_emission[index];
+  return sample;
+}
+
+/// 1 - cos of the half angle under which a sphere is seen; 0 from inside.
+static float sphere_cone(float radius, float squared_distance) {
+  float sine2 = radius * radius / squared_distance;
+  if (!(sine2 < 0.9999f)) return 0;
+  return sine2 < 1e-3f ? sine2 * (0.5f + 0.125f * sine2) : 1 - std::sqrt(1 - sine2);
+}
+
+LightSample LightSet::sample_sphere(const Entry& entry, const Vec3& point, const Vec2& u) const {
+  Vec3 to = entry.center - point;
+  float squared = glm::dot(to, to);
+  float one_minus_cos = sphere_cone(entry.radius, squared);
+  LightSample sample;
+  if (one_minus_cos <= 0) return sample;
+  Frame frame(to / std::sqrt(squared));
+  sample.direction = frame.to_world(sample_cone(u, one_minus_cos));
+  double first, second;
+  const PlacedObject& placed = geometry_.objects()[entry.object];
+  if (!intersect_sphere(placed, point, sample.direction, first, second)) first = glm::dot(to, sample.direction);
+  sample.distance = float(first);
+  sample.radiance = entry.emission;
+  sample.pdf = 1 / (2 * kPi * one_minus_cos);
+  return sample;
+}
+
+LightSample LightSet::sample_light(size_t light, const Vec3& point, const Vec2& u) const {
+  const Entry& entry = lights_[light];
+  if (entry.kind != Kind::Sun) return sample_entry(entry, point, u);
+  Vec3 direction = entry.light.direction;
+  if (entry.one_minus_cos > 0) direction = Frame(direction).to_world(sample_cone(u, entry.one_minus_cos));
+  return {direction, kInfinity, entry.light.color, 1, true};
+}
+
+LightSample LightSet::sample_entry(const Entry& entry, const Vec3& point, const Vec2& u) const {
+  switch (entry.kind) {
+  case Kind::Mesh:
+    return sample_mesh(entry, point, u);
+  case Kind::Sphere:
+    return sample_sphere(entry, point, u);
+  case Kind::Sun:
+    if (entry.one_minus_cos <= 0) return {entry.light.direction, kInfinity, entry.light.color, 1, true};
+    return sample_environment(Frame(entry.light.direction).to_world(sample_cone(u, entry.one_minus_cos)));
+  case Kind::Sky: {
+    float within = u.x;
+    uint32_t band = choose(entry.cumulative, within);
+    float height = std::clamp((float(band) + within) * 2 / kSkyBands - 1, -1.0f, 1.0f);
+    float r = std::sqrt(std::max(0.0f, 1 - height * height)), phi = 2 * kPi * u.y;
+    return sample_environment(Vec3(r * std::cos(phi), height, r * std::sin(phi)));
+  }
+  case Kind::Point:
+    break;
+  }
+  Vec3 to = entry.light.position - point;
+  float squared = glm::dot(to, to);
+  if (!(squared > 0)) return {};
+  float distance = std::sqrt(squared);
+  return {to / distance, distance, entry.light.color / squared, 1, true};
+}
+
+LightSample LightSet::sample(const Vec3& point, float choice, const Vec2& u) const {
+  if (lights_.empty()) return {};
+  size_t light = std::min(size_t(choice * float(lights_.size())), lights_.size() - 1);
+  LightSample sample = sample_entry(lights_[light], point, u);
+  if (sample.distance < kInfinity || sample.delta) sample.pdf /= float(lights_.size()); // the mixture's already is
+  return sample;
+}
+
+float LightSet::object_pdf(uint32_t object, uint32_t primitive, const Vec3& from, const Vec3& direction, float distance,
+                           const Vec3& normal) const {
+  int32_t light = light_of_object_[object];
+  if (light < 0) return 0;
+  const Entry& entry = lights_[size_t(light)];
+  if (entry.kind == Kind::Sphere) {
+    Vec3 to = entry.center - from;
+    float one_minus_cos = sphere_cone(entry.radius, glm::dot(to, to));
+    return one_minus_cos > 0 ? 1 / (2 * kPi * one_minus_cos * float(lights_.size())) : 0;
+  }
+  float cosine = std::abs(glm::dot(normal, direction));
+  if (!(cosine > 0)) return 0;
+  return entry.triangle_pdf[primitive] * distance * distance / (cosine * float(lights_.size()));
+}
+
+Vec3 LightSet::sky_irradiance(const Vec3& normal) const {
+  if (irradiance_.empty()) return Vec3(0);
+  float at = (normal.y + 1) * 0.5f * float(irradiance_.size() - 1);
+  size_t low = std::min(size_t(std::max(at, 0.0f)), irradiance_.size() - 2);
+  return glm::mix(irradiance_[low], irradiance_[low + 1], at - float(low));
+}
+
+} // namespace moonshade::renderer

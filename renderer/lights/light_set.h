@@ -1,0 +1,84 @@
+// All lights of a scene, ready to be sampled: points, sun, sky, and objects whose material emits a constant. (Objects
+// whose emission comes from a shader are found by the rays that hit them.) A light is chosen uniformly.
+//
+// Directions that leave the scene form one "environment" of sun and sky: its radiance and density are sums over both,
+// so that a direction drawn for one of them is weighed as the mixture that it is.
+#pragma once
+
+#include "renderer/geometry/geometry.h"
+#include "renderer/scene/scene.h"
+
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace moonshade::renderer {
+
+/// Light that may arrive at a point from a direction, if nothing is in between.
+struct LightSample {
+  Vec3 direction{0};
+  float distance = 0; ///< infinite for the environment
+  Vec3 radiance{0};   ///< black: nothing from here. For a light without extent: irradiance on a facing surface
+  float pdf = 0;      ///< per solid angle, choice of the light included
+  bool delta = false; ///< no ray can find it by chance; then `pdf` is that of the choice alone
+};
+
+class LightSet {
+public:
+  /// `emission` gives each material's constant emission, or nothing.
+  LightSet(const Scene& scene, const Geometry& geometry, std::span<const std::optional<Vec3>> emission);
+
+  size_t count() const { return lights_.size(); }
+  /// One light chosen by `choice`.
+  LightSample sample(const Vec3& point, float choice, const Vec2& u) const;
+  /// A given light by itself, as direct lighting sums them: the density is that of this light alone, and the sun counts
+  /// as irradiance from a direction within its disc. Not for skies.
+  LightSample sample_light(size_t light, const Vec3& point, const Vec2& u) const;
+  bool is_sky(size_t light) const { return lights_[light].kind == Kind::Sky; }
+
+  Vec3 environment(const Vec3& direction) const;
+  /// Density of `sample` for a direction that leaves the scene.
+  float environment_pdf(const Vec3& direction) const;
+  /// Density of `sample` for a point on an object, seen from `distance` away along `direction`; 0 where the object is
+  /// not sampled.
+  float object_pdf(uint32_t object, uint32_t primitive, const Vec3& from, const Vec3& direction, float distance,
+                   const Vec3& normal) const;
+  /// Irradiance of the skies, without what stands before them, on a surface with this normal.
+  Vec3 sky_irradiance(const Vec3& normal) const;
+
+private:
+  enum class Kind : uint8_t { Point, Sun, Sky, Mesh, Sphere };
+  struct Entry {
+    Kind kind = Kind::Point;
+    Light light{};
+    uint32_t object = 0;
+    Vec3 center{0};
+    float radius = 0;
+    float one_minus_cos = 0;             ///< Sun
+    std::vector<uint32_t> triangles;     ///< Mesh: those that emit
+    std::vector<float> cumulative;       ///< Mesh: over their weights; Sky: over bands of height
+    std::vector<float> triangle_pdf;     ///< Mesh: density per area, by primitive; 0 where it does not emit
+    std::vector<Vec3> triangle_emission; ///< Mesh: parallel to `triangles`
+    Vec3 emission{0};                    ///< Sphere
+    bool one_sided = false;
+  };
+
+  void add_sky(const Light& light);
+  void add_mesh(const PlacedObject& placed, uint32_t id, std::span<const std::optional<Vec3>> emission);
+  void add_sphere(const PlacedObject& placed, uint32_t id, const Vec3& emission);
+  LightSample sample_mesh(const Entry& entry, const Vec3& point, const Vec2& u) const;
+  LightSample sample_sphere(const Entry& entry, const Vec3& point, const Vec2& u) const;
+  LightSample sample_entry(const Entry& entry, const Vec3& point, const Vec2& u) const;
+  LightSample sample_environment(const Vec3& direction) const;
+  static Vec3 sky_radiance(const Light& light, float height);
+  static float sky_pdf(const Entry& entry, float height);
+
+  const Geometry& geometry_;
+  const Scene& scene_;
+  std::vector<Entry> lights_;
+  std::vector<uint32_t> environment_; ///< lights that are sun or sky
+  std::vector<int32_t> light_of_object_;
+  std::vector<Vec3> irradiance_; ///< of the skies, by the normal's y from -1 to 1
+};
+
+} // namespace moonshade::renderer

@@ -1,0 +1,266 @@
+// Loading: which file gives which slot. Evaluation: slots by constant or by call, kept in range.
+#include "renderer/materials/material_set.h"
+
+#include "renderer/scene/folders.h"
+
+#include <algorithm>
+#include <set>
+
+namespace moonshade::renderer {
+
+namespace {
+
+constexpr std::string_view kNotYet[] = {"transmission", "opacity", "density", "environment"};
+
+/// Everything needed to load one material's shaders.
+class MaterialLoader {
+public:
+  MaterialLoader(const Material& material, ShaderSource& source, const std::map<std::string, std::string>& overrides)
+      : material_(material), source_(source), overrides_(overrides) {}
+
+  std::string load(CompiledMaterial& compiled, std::string& warnings);
+
+private:
+  std::string shader_of(const std::string& file, std::shared_ptr<const Shader>& shader, std::string& warnings);
+  std::string from_whole_file(CompiledMaterial& compiled, std::string& warnings);
+  std::string slot(CompiledMaterial& compiled, Slot slot, const std::string& file, std::string& warnings);
+  std::string height(CompiledMaterial& compiled, const std::string& file, std::string& warnings);
+
+  const Material& material_;
+  ShaderSource& source_;
+  const std::map<std::string, std::string>& overrides_;
+  std::map<std::string, std::shared_ptr<const Shader>> loaded_;
+};
+
+std::string MaterialLoader::shader_of(const std::string& file, std::shared_ptr<const Shader>& shader,
+                                      std::string& warnings) {
+  auto& known = loaded_[file];
+  if (!known) {
+    ShaderLoad load = source_.load(file, material_.parameters, overrides_);
+    warnings += load.warnings;
+    if (!load.shader)
+      return load.error + (load.error.ends_with('\n') ? "" : "\n") + material_.place + ": note: the material '" +
+             material_.name + "' uses this shader\n";
+    known = load.shader;
+  }
+  shader = known;
+  return "";
+}
+
+std::string MaterialLoader::slot(CompiledMaterial& compiled, Slot slot, const std::string& file,
+                                 std::string& warnings) {
+  const SlotInfo& info = slot_infos()[size_t(slot)];
+  std::shared_ptr<const Shader> shader;
+  std::string error = shader_of(file, shader, warnings);
+  return error.empty() ? EntryCall::bind(shader, file, info.name, info.components, compiled.calls[size_t(slot)])
+                       : error;
+}
+
+std::string MaterialLoader::height(CompiledMaterial& compiled, const std::string& file, std::string& warnings) {
+  std::shared_ptr<const Shader> shader;
+  std::string error = shader_of(file, shader, warnings);
+  return error.empty() ? EntryCall::bind(shader, file, "height", 1, compiled.height) : error;
+}
+
+/// Every entry that the material's own file has and the material does not set.
+std::string MaterialLoader::from_whole_file(CompiledMaterial& compiled, std::string& warnings) {
+  std::shared_ptr<const Shader> shader;
+  if (std::string error = shader_of(material_.shader, shader, warnings); !error.empty()) return error;
+  bool any = false;
+  for (const EntryInfo& entry : shader->info().entries) {
+    if (std::find(std::begin(kNotYet), std::end(kNotYet), entry.name) != std::end(kNotYet))
+      return material_.shader + ": '" + entry.name + "' is not available yet";
+    for (size_t s = 0; s < kSlotCount; ++s) {
+      if (entry.name != slot_infos()[s].name) continue;
+      any = true;
+      if (material_.values[s] || !material_.shaders[s].empty()) continue;
+      if (std::string error = slot(compiled, Slot(s), material_.shader, warnings); !error.empty()) return error;
+    }
+    if (entry.name != "height") continue;
+    any = true;
+    if (!material_.height_shader.empty()) continue;
+    if (std::string error = height(compiled, material_.shader, warnings); !error.empty()) return error;
+  }
+  return any ? ""
+             : material_.shader + ": has none of the functions that a material uses (color, height, reflectance, ...)";
+}
+
+std::string MaterialLoader::load(CompiledMaterial& compiled, std::string& warnings) {
+  compiled.bump = material_.bump;
+  compiled.emits_outward_only = material_.emits_outward_only;
+  for (size_t s = 0; s < kSlotCount; ++s) {
+    compiled.constants[s] = material_.values[s].value_or(slot_infos()[s].default_value);
+    if (material_.shaders[s].empty()) continue;
+    if (std::string error = slot(compiled, Slot(s), material_.shaders[s], warnings); !error.empty()) return error;
+  }
+  if (!material_.height_shader.empty())
+    if (std::string error = height(compiled, material_.height_shader, warnings); !error.empty()) return error;
+  if (!material_.shader.empty())
+    if (std::string error = from_whole_file(compiled, warnings); !error.empty()) return error;
+  for (const auto& call : compiled.calls)
+    if (call) compiled.needs |= call->needs();
+  if (compiled.height) compiled.needs |= compiled.height->needs();
+  return "";
+}
+
+/// The line of `function NAME` in a shader's file, for results that are not finite (which have no place of their own).
+uint32_t line_of_function(const std::string& file, const std::string& name) {
+  FileText text = read_file(file);
+  size_t at = text.text.find("function " + name);
+  return at == std::string::npos ? 0 : 1 + uint32_t(std::count(text.text.begin(), text.text.begin() + long(at), '\n'));
+}
+
+void note_faults(const EntryCall& call, const uint8_t* codes, size_t count, const FaultReport& report,
+                 FaultLog& faults) {
+  const std::string& entry = call.shader().info().entries[call.entry()].name;
+  if (report.count) {
+    FaultSite site = call.shader().fault_site(report.first_site);
+    std::string file = site.file.empty() ? call.file() : site.file;
+    faults[{file, entry, uint8_t(report.first_code), site.line, site.message}] += report.count;
+  }
+  uint64_t not_finite = uint64_t(std::count(codes, codes + count, kNotFinite));
+  if (not_finite == 0) return;
+  auto same = std::find_if(faults.begin(), faults.end(), [&](const auto& f) {
+    return f.first.code == kNotFinite && f.first.file == call.file() && f.first.entry == entry;
+  });
+  if (same != faults.end())
+    same->second += not_finite;
+  else
+    faults[{call.file(), entry, kNotFinite, line_of_function(call.file(), entry), ""}] += not_finite;
+}
+
+void keep_in_range(Slot slot, float* values, size_t count) {
+  float low = slot == Slot::Ior ? 1.0f : 0.0f;
+  float high = slot == Slot::Emission ? std::numeric_limits<float>::max() : slot == Slot::Ior ? 100.0f : 1.0f;
+  for (size_t k = 0; k < count; ++k)
+    values[k] = std::min(std::max(values[k], low), high);
+}
+
+} // namespace
+
+std::string MaterialSet::build(const Scene& scene, ShaderSource& source,
+                               const std::map<std::string, std::map<std::string, std::string>>& overrides,
+                               MaterialSet& materials, std::string& warnings) {
+  for (const Material& material : scene.materials) {
+    auto found = overrides.find(material.name);
+    static const std::map<std::string, std::string> none;
+    CompiledMaterial compiled;
+    MaterialLoader loader(material, source, found == overrides.end() ? none : found->second);
+    if (std::string error = loader.load(compiled, warnings); !error.empty()) return error;
+    for (const auto& call : compiled.calls)
+      if (call) materials.width_ = std::max(materials.width_, call->shader().width());
+    if (compiled.height) materials.width_ = std::max(materials.width_, compiled.height->shader().width());
+    materials.materials_.push_back(std::move(compiled));
+  }
+  return "";
+}
+
+std::vector<std::optional<Vec3>> MaterialSet::constant_emission() const {
+  std::vector<std::optional<Vec3>> emission;
+  for (const CompiledMaterial& m : materials_) {
+    if (m.calls[size_t(Slot::Emission)])
+      emission.push_back(std::nullopt);
+    else
+      emission.push_back(m.constants[size_t(Slot::Emission)]);
+  }
+  return emission;
+}
+
+void MaterialSet::shade(const CompiledMaterial& material, ShadingBatch& batch, size_t begin, size_t count,
+                        FaultLog& faults) const {
+  std::fill_n(batch.faulted.begin() + long(begin), count, uint8_t(0));
+  EntryCall::Inputs inputs = EntryCall::inputs_of(batch, begin);
+  for (size_t s = 0; s < kSlotCount; ++s) {
+    unsigned components = slot_infos()[s].components;
+    float* out[3];
+    for (unsigned c = 0; c < components; ++c)
+      out[c] = batch.results[kResultOffset[s] + c].data() + begin;
+    if (!material.calls[s]) {
+      for (unsigned c = 0; c < components; ++c)
+        std::fill_n(out[c], count, material.constants[s][int(c)]);
+    } else {
+      uint8_t* codes = batch.scratch_codes.data();
+      std::fill_n(codes, count, uint8_t(0));
+      FaultReport report;
+      material.calls[s]->run(batch, begin, count, inputs, out, codes, report);
+      bool any = false;
+      for (size_t k = 0; k < count; ++k)
+        any |= codes[k] != 0;
+      if (any) {
+        for (size_t k = 0; k < count; ++k)
+          batch.faulted[begin + k] |= codes[k] != 0;
+        note_faults(*material.calls[s], codes, count, report, faults);
+      }
+    }
+    for (unsigned c = 0; c < components; ++c)
+      keep_in_range(Slot(s), out[c], count);
+  }
+}
+
+namespace {
+
+/// ∇h by p at one point, from the heights at p ± ε.
+Vec3 central_difference(const ShadingBatch& batch, size_t k, float epsilon) {
+  Vec3 g;
+  for (int axis = 0; axis < 3; ++axis)
+    g[axis] = (batch.heights[2 * axis][k] - batch.heights[2 * axis + 1][k]) / (2 * epsilon);
+  return g;
+}
+
+/// The outward unit normal, bent by the surface gradient in object space (Mikkelsen 2010), or the paper's way: minus
+/// the unit vector of u, u being twice the gradient.
+Vec3 bent_normal(const PlacedObject& placed, const Vec3& normal, const Vec3& g, BumpMode mode) {
+  Vec3 local = normalize_or(glm::transpose(placed.linear) * normal, normal);
+  Vec3 bent = mode == BumpMode::Paper ? local - normalize_or(g, Vec3(0)) : local - (g - local * glm::dot(g, local));
+  return normalize_or(placed.normal_matrix * normalize_or(bent, local), normal);
+}
+
+} // namespace
+
+void MaterialSet::bend(const CompiledMaterial& material, ShadingBatch& batch, size_t begin, size_t count,
+                       const BumpTarget* targets, FaultLog& faults) const {
+  const EntryCall& height = *material.height;
+  EntryCall::Inputs inputs = EntryCall::inputs_of(batch, begin);
+  EntryCall::Inputs displaced = inputs;
+  for (int c = 0; c < 3; ++c) {
+    displaced[kLocal + c] = batch.scratch_inputs[c].data();
+    displaced[kWorld + c] = batch.scratch_inputs[3 + c].data();
+  }
+  auto epsilon = [&](size_t k) { return std::max(1e-4f * targets[k].placed->extent, 0.5f * targets[k].footprint); };
+  uint8_t* codes = batch.scratch_codes.data();
+  std::fill_n(codes, count, uint8_t(0));
+  for (int sample = 0; sample < 6; ++sample) {
+    int axis = sample / 2;
+    float sign = sample % 2 ? -1.0f : 1.0f;
+    for (size_t k = 0; k < count; ++k) {
+      Vec3 step(0);
+      step[axis] = sign * epsilon(k);
+      Vec3 world_step = targets[k].placed->linear * step;
+      for (int c = 0; c < 3; ++c) {
+        batch.scratch_inputs[c][k] = inputs[kLocal + c][k] + step[c];
+        batch.scratch_inputs[3 + c][k] = inputs[kWorld + c][k] + world_step[c];
+      }
+    }
+    float* out[1] = {batch.heights[sample].data()};
+    FaultReport sample_report;
+    // Codes of this sample stand behind those of the others, which they must not erase.
+    uint8_t* sample_codes = batch.faulted.data() + begin;
+    std::fill_n(sample_codes, count, uint8_t(0));
+    height.run(batch, begin, count, displaced, out, sample_codes, sample_report);
+    for (size_t k = 0; k < count; ++k)
+      codes[k] = codes[k] ? codes[k] : sample_codes[k];
+    if (sample_report.count)
+      note_faults(height, nullptr, 0, sample_report, faults);
+    else if (std::count(sample_codes, sample_codes + count, kNotFinite))
+      note_faults(height, sample_codes, count, {}, faults);
+  }
+  for (size_t k = 0; k < count; ++k) {
+    if (codes[k]) continue;
+    Vec3 g = central_difference(batch, k, epsilon(k));
+    if (!is_finite(g) || is_black(g)) continue;
+    SurfacePoint& point = *targets[k].point;
+    point.shading_normal = bent_normal(*targets[k].placed, point.shading_normal, g, material.bump);
+  }
+}
+
+} // namespace moonshade::renderer

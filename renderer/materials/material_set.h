@@ -1,0 +1,70 @@
+// The materials of a scene with their shaders loaded, and the evaluation of a run of points of one material: height
+// first (it bends the normal), then every slot, each by one call for the whole run.
+#pragma once
+
+#include "renderer/geometry/geometry.h"
+#include "renderer/materials/shader_source.h"
+#include "renderer/materials/shading_batch.h"
+
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace moonshade::renderer {
+
+/// Points that faulted, for the report at the end: one line per shader, entry, kind and place of the first of a run.
+struct FaultKey {
+  std::string file, entry;
+  uint8_t code = 0;
+  uint32_t line = 0;
+  std::string message;
+  auto operator<=>(const FaultKey&) const = default;
+};
+using FaultLog = std::map<FaultKey, uint64_t>;
+
+struct CompiledMaterial {
+  std::array<Vec3, kSlotCount> constants;
+  std::array<std::optional<EntryCall>, kSlotCount> calls;
+  std::optional<EntryCall> height;
+  BumpMode bump = BumpMode::Gradient;
+  uint32_t needs = 0; ///< channels that any of its entries reads
+  bool emits_outward_only = false;
+};
+
+/// A surface point's bent normal, outward.
+struct BumpTarget {
+  const PlacedObject* placed;
+  SurfacePoint* point;
+  float footprint; ///< in units of p
+};
+
+class MaterialSet {
+public:
+  /// Error: diagnostics of shaders that do not compile, or slots they do not give. `overrides`: material name, then
+  /// parameter, then text.
+  static std::string build(const Scene& scene, ShaderSource& source,
+                           const std::map<std::string, std::map<std::string, std::string>>& overrides,
+                           MaterialSet& materials, std::string& warnings);
+
+  size_t size() const { return materials_.size(); }
+  const CompiledMaterial& operator[](size_t index) const { return materials_[index]; }
+  /// Emission that is a constant, by material.
+  std::vector<std::optional<Vec3>> constant_emission() const;
+  /// Lanes of the compiled shaders; 1 where there are none.
+  unsigned width() const { return width_; }
+
+  /// Bends the normals of points [begin, begin + count), whose inputs stand in the batch, by the material's height.
+  /// A point where height faults keeps its normal.
+  void bend(const CompiledMaterial& material, ShadingBatch& batch, size_t begin, size_t count,
+            const BumpTarget* targets, FaultLog& faults) const;
+  /// Every slot of the points into the batch's results, with values kept in range; sets `faulted`.
+  void shade(const CompiledMaterial& material, ShadingBatch& batch, size_t begin, size_t count, FaultLog& faults) const;
+
+private:
+  std::vector<CompiledMaterial> materials_;
+  unsigned width_ = 1;
+};
+
+} // namespace moonshade::renderer

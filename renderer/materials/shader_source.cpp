@@ -1,0 +1,116 @@
+// Files to shaders through the runtime's front end.
+#include "renderer/materials/shader_source.h"
+
+#include "renderer/scene/folders.h"
+#include "renderer/scene/nearest_name.h"
+#include "runtime/frontend.h"
+#include "runtime/interpret.h"
+
+#include <sstream>
+#include <utility>
+
+namespace moonshade::renderer {
+
+namespace {
+
+struct ShaderFile {
+  std::unique_ptr<CheckedShader> checked;
+  std::shared_ptr<const Program> program;
+  std::string error, warnings;
+};
+
+class RuntimeShaders : public ShaderSource {
+public:
+  explicit RuntimeShaders(const ShaderOptions& options) : options_(options) {}
+
+  ShaderLoad load(const std::string& file, const std::map<std::string, Constant>& parameters,
+                  const std::map<std::string, std::string>& overrides) override;
+
+private:
+  ShaderFile& open(const std::string& file);
+
+  ShaderOptions options_;
+  std::map<std::string, ShaderFile> files_;
+};
+
+ShaderFile& RuntimeShaders::open(const std::string& file) {
+  auto [found, is_new] = files_.try_emplace(file);
+  ShaderFile& shader = found->second;
+  if (!is_new) return shader;
+  FileText text = read_file(file, uint64_t(64) << 20);
+  if (!text.error.empty()) return shader.error = text.error, shader;
+  shader.checked = std::make_unique<CheckedShader>(file, text.text);
+  std::ostringstream messages;
+  print_text(shader.checked->diagnostics(), shader.checked->sources(), messages, options_.color_diagnostics);
+  if (!shader.checked->ok()) return shader.error = messages.str(), shader;
+  shader.warnings = messages.str();
+  if (options_.backend == Backend::Interp) return shader;
+  CompileOptions compile_options;
+  compile_options.precision = options_.precision;
+  compile_options.width = options_.width;
+  compile_options.uniform_inputs = {"time", "frame"};
+  compile_options.color_diagnostics = options_.color_diagnostics;
+  Compilation compiled = compile(*shader.checked, compile_options);
+  shader.program = compiled.program;
+  if (!shader.program) shader.error = compiled.diagnostics.empty() ? file + ": not compiled" : compiled.diagnostics;
+  return shader;
+}
+
+/// Every given parameter as a value of its type, or an error that names it.
+std::string merge(const ShaderInfo& info, const std::map<std::string, Constant>& parameters,
+                  const std::map<std::string, std::string>& overrides, std::map<std::string, Constant>& merged) {
+  std::vector<std::string_view> names;
+  for (const ParameterInfo& p : info.parameters)
+    names.push_back(p.name);
+  auto find = [&](const std::string& name) -> const ParameterInfo* {
+    for (const ParameterInfo& p : info.parameters)
+      if (p.name == name) return &p;
+    return nullptr;
+  };
+  auto unknown = [&](const std::string& name) {
+    return "the shader has no parameter '" + name + "'" + did_you_mean(name, names) +
+           (names.empty() ? "" : " (it has: " + join_names(names) + ")");
+  };
+  for (const auto& [name, value] : parameters) {
+    const ParameterInfo* parameter = find(name);
+    if (!parameter) return unknown(name);
+    CheckedConstant checked = check_override(*parameter, value);
+    if (!checked.error.empty()) return checked.error;
+    merged[name] = checked.value;
+  }
+  for (const auto& [name, text] : overrides) {
+    const ParameterInfo* parameter = find(name);
+    if (!parameter) return unknown(name);
+    CheckedConstant checked = parse_override(*parameter, text);
+    if (!checked.error.empty()) return checked.error;
+    merged[name] = checked.value;
+  }
+  return "";
+}
+
+ShaderLoad RuntimeShaders::load(const std::string& file, const std::map<std::string, Constant>& parameters,
+                                const std::map<std::string, std::string>& overrides) {
+  ShaderFile& shader = open(file);
+  ShaderLoad load;
+  if (!shader.error.empty()) return load.error = shader.error, load;
+  load.warnings = std::exchange(shader.warnings, "");
+  std::map<std::string, Constant> merged;
+  load.error = merge(shader.checked->info(), parameters, overrides, merged);
+  if (!load.error.empty()) return load.error = file + ": " + load.error, load;
+  // Steps are counted exactly where the shader is compiled; the interpreter's guard against endless loops is enough
+  // here.
+  Instantiation instance = options_.backend == Backend::Interp
+                               ? interpret(*shader.checked, merged, {.count_steps = false})
+                               : shader.program->instantiate(merged);
+  load.shader = instance.shader;
+  if (!load.shader) load.error = file + ": " + instance.error;
+  return load;
+}
+
+} // namespace
+
+std::unique_ptr<ShaderSource> runtime_shaders(const ShaderOptions& options) {
+  return std::make_unique<RuntimeShaders>(options);
+}
+
+} // namespace moonshade::renderer

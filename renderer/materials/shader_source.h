@@ -1,0 +1,39 @@
+// Where materials get their shaders from: the runtime's compiler or its interpreter, or a test's own.
+#pragma once
+
+#include "runtime/shader.h"
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace moonshade::renderer {
+
+struct ShaderLoad {
+  std::shared_ptr<const Shader> shader; ///< null where `error` is set
+  std::string error;                    ///< diagnostics, or what is wrong with a parameter
+  std::string warnings;
+};
+
+class ShaderSource {
+public:
+  virtual ~ShaderSource() = default;
+  /// The shader in `file` with these parameters; `overrides` are texts of the command line and win.
+  virtual ShaderLoad load(const std::string& file, const std::map<std::string, Constant>& parameters,
+                          const std::map<std::string, std::string>& overrides) = 0;
+};
+
+enum class Backend : uint8_t { Jit, Interp };
+
+struct ShaderOptions {
+  Backend backend = Backend::Jit;
+  Precision precision = Precision::F32;
+  unsigned width = 0; ///< 0: the best
+  bool color_diagnostics = false;
+};
+
+/// By the runtime. Each file is read, checked and compiled once.
+std::unique_ptr<ShaderSource> runtime_shaders(const ShaderOptions& options);
+
+} // namespace moonshade::renderer

@@ -1,0 +1,45 @@
+// Shaders first: their errors are the likeliest, and cheap to find.
+#include "renderer/prepared_scene.h"
+
+#include "renderer/scene/nearest_name.h"
+
+#include <chrono>
+
+namespace moonshade::renderer {
+
+static double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+static std::string unknown_material(const Scene& scene, const Overrides& overrides) {
+  std::vector<std::string_view> names;
+  for (const Material& m : scene.materials)
+    names.push_back(m.name);
+  for (const auto& [name, parameters] : overrides)
+    if (std::find(names.begin(), names.end(), name) == names.end())
+      return "-D " + name + ".…: the scene has no material '" + name + "'" + did_you_mean(name, names) +
+             " (it has: " + join_names(names) + ")";
+  return "";
+}
+
+Preparation prepare(Scene scene, ShaderSource& shaders, const Overrides& overrides) {
+  Preparation result;
+  result.error = unknown_material(scene, overrides);
+  if (!result.error.empty()) return result;
+  auto prepared = std::make_unique<PreparedScene>();
+  prepared->scene = std::move(scene);
+  auto start = std::chrono::steady_clock::now();
+  result.error = MaterialSet::build(prepared->scene, shaders, overrides, prepared->materials, result.warnings);
+  prepared->compile_seconds = seconds_since(start);
+  if (!result.error.empty()) return result;
+  start = std::chrono::steady_clock::now();
+  prepared->geometry = Geometry::build(prepared->scene, result.error);
+  prepared->geometry_seconds = seconds_since(start);
+  if (!prepared->geometry) return result.machine_at_fault = true, std::move(result);
+  prepared->lights =
+      std::make_unique<LightSet>(prepared->scene, *prepared->geometry, prepared->materials.constant_emission());
+  result.prepared = std::move(prepared);
+  return result;
+}
+
+} // namespace moonshade::renderer

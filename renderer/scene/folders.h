@@ -1,0 +1,39 @@
+// Which files a scene may name: those in the folders of the files that the user named, and in folders below them.
+// Symbolic links are followed before the check, so they lead nowhere else either.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace moonshade::renderer {
+
+/// A path, or why it may not be used.
+struct ResolvedPath {
+  std::string path;
+  std::string error;
+};
+
+class Folders {
+public:
+  /// The folder of a file that the user named.
+  void allow_folder_of(const std::string& file);
+
+  /// The file `name` as written in a file that lies in `base_folder`.
+  ResolvedPath resolve(const std::string& base_folder, const std::string& name) const;
+
+private:
+  std::vector<std::filesystem::path> roots_; ///< canonical
+};
+
+/// The folder part of a path; "." where there is none.
+std::string folder_of(const std::string& file);
+
+/// A whole file, at most `limit` bytes.
+struct FileText {
+  std::string text;
+  std::string error;
+};
+FileText read_file(const std::string& path, uint64_t limit = uint64_t(8) << 30);
+
+} // namespace moonshade::renderer

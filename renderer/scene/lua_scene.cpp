@@ -1,0 +1,363 @@
+// Two passes over the recorded calls: materials first, so that an object may come before the material that it names.
+#include "renderer/scene/lua_scene.h"
+
+#include "renderer/scene/lua_sandbox.h"
+#include "renderer/scene/mesh.h"
+#include "renderer/scene/obj_reader.h"
+#include "renderer/scene/read_scene.h"
+#include "renderer/scene/scene_fields.h"
+#include "renderer/scene/shapes.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+
+namespace moonshade::renderer {
+
+namespace {
+
+constexpr std::string_view kFunctions[] = {"camera", "render", "material", "sphere", "rectangle",
+                                           "plane",  "box",    "obj",      "light"};
+enum Function { kCamera, kRender, kMaterial, kSphere, kRectangle, kPlane, kBox, kObj, kLight };
+
+class SceneBuilder {
+public:
+  SceneBuilder(const std::string& path, const Folders& folders) : path_(path), folders_(folders) {
+    scene_.file = path;
+    Material standard;
+    standard.name = "default";
+    standard.place = path;
+    scene_.materials.push_back(standard);
+  }
+  SceneReading build(SandboxRun run);
+
+private:
+  std::string place(const SceneCall& call) const { return path_ + ":" + std::to_string(call.line); }
+  bool apply(const SceneCall& call, size_t index);
+
+  void camera(SceneFields& fields);
+  void render(SceneFields& fields);
+  void material(SceneFields& fields, const SceneCall& call, size_t index);
+  void slot(SceneFields& fields, Material& material, Slot slot);
+  void parameters(SceneFields& fields, Material& material);
+  void light(SceneFields& fields, const SceneCall& call);
+  void area_light(SceneFields& fields);
+  void obj(SceneFields& fields);
+  Object mesh_object(SceneFields& fields, std::string name, std::shared_ptr<const Mesh> mesh);
+  void place_object(SceneFields& fields, Object& object);
+  uint32_t material_of(SceneFields& fields);
+  std::string file(SceneFields& fields, std::string_view field, const std::string& name);
+  void add(Object object) { scene_.objects.push_back(std::move(object)); }
+
+  std::string path_;
+  const Folders& folders_;
+  Scene scene_;
+  SceneReading reading_;
+  std::map<int64_t, uint32_t> material_of_call_;
+  std::map<std::string, uint32_t> material_of_name_;
+  bool has_camera_ = false, has_render_ = false, has_emission_ = false;
+  std::map<std::string, ObjReading> models_;
+};
+
+std::string SceneBuilder::file(SceneFields& fields, std::string_view field, const std::string& name) {
+  ResolvedPath path = folders_.resolve(folder_of(path_), name);
+  if (!path.error.empty()) fields.fail("'" + std::string(field) + "': " + path.error);
+  return path.path;
+}
+
+void SceneBuilder::camera(SceneFields& fields) {
+  if (has_camera_) fields.fail("a scene has one camera");
+  has_camera_ = true;
+  Camera& c = scene_.camera;
+  fields.require("from");
+  c.from = fields.vector("from", c.from);
+  c.to = fields.vector("to", c.to);
+  c.up = fields.vector("up", c.up);
+  c.fov = float(fields.number("fov", c.fov, 0.01, 170));
+  if (c.from == c.to)
+    fields.fail("'from' and 'to' are the same point");
+  else if (glm::length(glm::cross(normalize_or(c.to - c.from, Vec3(0)), normalize_or(c.up, Vec3(0)))) < 1e-5f)
+    fields.fail("'up' points along the view");
+}
+
+void SceneBuilder::render(SceneFields& fields) {
+  if (has_render_) fields.fail("a scene has one render");
+  has_render_ = true;
+  Settings& s = scene_.settings;
+  static constexpr std::string_view kIntegrators[] = {"path", "whitted"};
+  static constexpr std::string_view kTonemaps[] = {"none", "filmic"};
+  s.width = int(fields.integer("width", s.width, 1, 65536));
+  s.height = int(fields.integer("height", s.height, 1, 65536));
+  s.samples = uint32_t(fields.integer("samples", s.samples, 1, 1 << 24));
+  s.seed = uint32_t(fields.integer("seed", s.seed, 0, UINT32_MAX));
+  s.depth = uint32_t(fields.integer("depth", s.depth, 1, 1024));
+  s.integrator = IntegratorKind(fields.choice("integrator", kIntegrators));
+  s.tonemap = Tonemap(fields.choice("tonemap", kTonemaps));
+  s.exposure = float(fields.number("exposure", s.exposure, -100, 100));
+  s.clamp = float(fields.number("clamp", s.clamp, 0));
+  s.time = fields.number("time", s.time);
+  s.frame = fields.integer("frame", s.frame, INT32_MIN, INT32_MAX);
+}
+
+/// A constant, or the name of a shader file.
+void SceneBuilder::slot(SceneFields& fields, Material& material, Slot slot) {
+  const SlotInfo& info = slot_infos()[size_t(slot)];
+  const SceneValue* value = fields.find(info.name);
+  if (!value) return;
+  if (const auto* name = std::get_if<std::string>(&value->value)) {
+    material.shaders[size_t(slot)] = file(fields, info.name, *name);
+    return;
+  }
+  if (info.components == 3)
+    material.values[size_t(slot)] = fields.color(info.name, Vec3(0));
+  else
+    material.values[size_t(slot)] =
+        Vec3(float(fields.number(info.name, 0, slot == Slot::Ior ? 1 : 0, slot == Slot::Ior ? 100 : 1)));
+}
+
+void SceneBuilder::parameters(SceneFields& fields, Material& material) {
+  const SceneValue* value = fields.find("params");
+  if (!value) return;
+  const auto* list = std::get_if<SceneValue::Fields>(&value->value);
+  const auto* empty = std::get_if<SceneValue::List>(&value->value);
+  if (!list && !(empty && empty->empty())) return fields.fail("'params' is a table of names and values");
+  if (!list) return;
+  for (const auto& [name, v] : *list) {
+    if (auto* b = std::get_if<bool>(&v.value))
+      material.parameters[name] = *b;
+    else if (auto* i = std::get_if<int64_t>(&v.value))
+      material.parameters[name] = *i;
+    else if (auto* d = std::get_if<double>(&v.value))
+      material.parameters[name] = *d;
+    else if (auto* s = std::get_if<std::string>(&v.value))
+      material.parameters[name] = *s;
+    else if (auto* items = std::get_if<SceneValue::List>(&v.value)) {
+      std::vector<double> numbers;
+      for (const SceneValue& item : *items) {
+        if (auto* i = std::get_if<int64_t>(&item.value))
+          numbers.push_back(double(*i));
+        else if (auto* d = std::get_if<double>(&item.value))
+          numbers.push_back(*d);
+      }
+      if (numbers.size() != items->size() || numbers.size() < 2 || numbers.size() > 4)
+        fields.fail("parameter '" + name + "' is a list of 2 to 4 numbers");
+      material.parameters[name] = std::move(numbers);
+    } else {
+      fields.fail("parameter '" + name + "' is no value that a parameter can have");
+    }
+  }
+}
+
+void SceneBuilder::material(SceneFields& fields, const SceneCall& call, size_t index) {
+  static constexpr std::string_view kBumps[] = {"gradient", "paper"};
+  Material m;
+  m.place = place(call);
+  m.name = fields.text("name", "material" + std::to_string(scene_.materials.size()));
+  if (std::string name = fields.text("shader"); !name.empty()) m.shader = file(fields, "shader", name);
+  for (size_t s = 0; s < kSlotCount; ++s)
+    slot(fields, m, Slot(s));
+  if (std::string name = fields.text("height"); !name.empty()) m.height_shader = file(fields, "height", name);
+  m.bump = BumpMode(fields.choice("bump", kBumps));
+  parameters(fields, m);
+  for (const char* later : {"transmission", "opacity", "density", "anisotropy"})
+    if (call.fields.contains(later))
+      fields.fail("'" + std::string(later) + "' is not available yet"), fields.find(later);
+  const auto& emission = m.values[size_t(Slot::Emission)];
+  has_emission_ |= (emission && !is_black(*emission)) || !m.shaders[size_t(Slot::Emission)].empty();
+  uint32_t id = uint32_t(scene_.materials.size());
+  if (!material_of_name_.try_emplace(m.name, id).second) fields.fail("there is a material '" + m.name + "' already");
+  material_of_call_[int64_t(index)] = id;
+  scene_.materials.push_back(std::move(m));
+}
+
+uint32_t SceneBuilder::material_of(SceneFields& fields) {
+  const SceneValue* value = fields.find("material");
+  if (!value) return 0;
+  if (const auto* name = std::get_if<std::string>(&value->value)) {
+    if (auto found = material_of_name_.find(*name); found != material_of_name_.end()) return found->second;
+    fields.fail("there is no material '" + *name + "'");
+    return 0;
+  }
+  if (auto found = material_of_call_.find(value->call); found != material_of_call_.end()) return found->second;
+  fields.fail("'material' is what material{} gave, or its name");
+  return 0;
+}
+
+void SceneBuilder::place_object(SceneFields& fields, Object& object) {
+  Vec3 scale = fields.triple("scale", Vec3(1)), rotate = fields.vector("rotate", Vec3(0));
+  Mat4 m = glm::translate(Mat4(1.0f), fields.vector("translate", Vec3(0)));
+  for (int axis = 2; axis >= 0; --axis) {
+    Vec3 around(0);
+    around[axis] = 1;
+    if (rotate[axis] != 0) m = glm::rotate(m, glm::radians(rotate[axis]), around);
+  }
+  m = glm::scale(m, scale);
+  if (scale.x == 0 || scale.y == 0 || scale.z == 0) fields.fail("'scale' is not zero");
+  object.to_world = m * object.to_world;
+}
+
+Object SceneBuilder::mesh_object(SceneFields& fields, std::string name, std::shared_ptr<const Mesh> mesh) {
+  Object object;
+  object.name = fields.text("name", name);
+  object.mesh = std::move(mesh);
+  object.materials = {material_of(fields)};
+  place_object(fields, object);
+  return object;
+}
+
+void SceneBuilder::obj(SceneFields& fields) {
+  fields.require("file");
+  std::string name = fields.text("file");
+  if (name.empty()) return;
+  std::string path = file(fields, "file", name);
+  if (path.empty()) return;
+  auto [model, is_new] = models_.try_emplace(path);
+  if (is_new) model->second = read_obj(path, folders_);
+  if (is_new)
+    reading_.warnings.insert(reading_.warnings.end(), model->second.warnings.begin(), model->second.warnings.end());
+  if (!model->second.mesh) return fields.fail(model->second.error);
+  Object object = mesh_object(fields, path, model->second.mesh);
+  if (fields.has("material")) {
+    size_t slots = std::max<size_t>(1, model->second.materials.size());
+    object.materials.assign(slots, object.materials[0]);
+  } else {
+    object.materials.clear();
+    for (const Material& m : model->second.materials) {
+      object.materials.push_back(uint32_t(scene_.materials.size()));
+      const auto& emission = m.values[size_t(Slot::Emission)];
+      has_emission_ |= emission && !is_black(*emission);
+      scene_.materials.push_back(m);
+    }
+  }
+  add(std::move(object));
+}
+
+void SceneBuilder::area_light(SceneFields& fields) {
+  Material m;
+  m.name = "light" + std::to_string(scene_.materials.size());
+  m.place = path_;
+  m.values[size_t(Slot::Color)] = Vec3(0);
+  m.values[size_t(Slot::Ior)] = Vec3(1);
+  m.values[size_t(Slot::Emission)] = fields.color("color", Vec3(1)) * float(fields.number("intensity", 1, 0));
+  m.emits_outward_only = true;
+  Vec3 center = fields.vector("center", Vec3(0));
+  Vec3 u = fields.vector("u", Vec3(1, 0, 0)), v = fields.vector("v", Vec3(0, 0, 1));
+  if (is_black(glm::cross(u, v))) fields.fail("'u' and 'v' span no area");
+  Object object;
+  object.name = m.name;
+  object.mesh = make_rectangle(center, u, v);
+  object.materials = {uint32_t(scene_.materials.size())};
+  scene_.materials.push_back(std::move(m));
+  has_emission_ = true;
+  add(std::move(object));
+}
+
+void SceneBuilder::light(SceneFields& fields, const SceneCall& call) {
+  static constexpr std::string_view kTypes[] = {"sun", "sky", "point", "area"};
+  (void)call;
+  fields.require("type");
+  size_t type = fields.choice("type", kTypes);
+  if (type == 3) return area_light(fields);
+  Light light;
+  Vec3 color = fields.color("color", Vec3(1));
+  float intensity = float(fields.number("intensity", 1, 0));
+  if (type == 0) {
+    light.kind = LightKind::Sun;
+    light.direction = normalize_or(fields.vector("direction", Vec3(0.6f, 0.8f, 0.5f)), Vec3(0));
+    light.angle = float(fields.number("angle", light.angle, 0, 60));
+    if (is_black(light.direction)) fields.fail("'direction' has no direction");
+  } else if (type == 1) {
+    light.kind = LightKind::Sky;
+    bool plain = !fields.has("zenith") && !fields.has("horizon") && !fields.has("ground");
+    light.zenith = fields.color("zenith", plain ? Vec3(1) : Vec3(0.18f, 0.32f, 0.65f)) * color * intensity;
+    light.horizon = fields.color("horizon", plain ? Vec3(1) : Vec3(0.62f, 0.70f, 0.80f)) * color * intensity;
+    light.ground = fields.color("ground", plain ? Vec3(1) : Vec3(0.24f, 0.22f, 0.20f)) * color * intensity;
+  } else {
+    light.kind = LightKind::Point;
+    fields.require("position");
+    light.position = fields.vector("position", Vec3(0));
+  }
+  light.color = color * intensity;
+  scene_.lights.push_back(light);
+}
+
+bool SceneBuilder::apply(const SceneCall& call, size_t index) {
+  SceneFields fields(call, std::string(kFunctions[call.function]), place(call));
+  switch (Function(call.function)) {
+  case kCamera:
+    camera(fields);
+    break;
+  case kRender:
+    render(fields);
+    break;
+  case kMaterial:
+    material(fields, call, index);
+    break;
+  case kLight:
+    light(fields, call);
+    break;
+  case kObj:
+    obj(fields);
+    break;
+  case kSphere: {
+    Object object;
+    object.name = fields.text("name", "sphere");
+    object.shape = Shape::Sphere;
+    object.to_world = glm::translate(Mat4(1.0f), fields.vector("center", Vec3(0)));
+    object.radius = float(fields.number("radius", 1, 1e-20));
+    object.materials = {material_of(fields)};
+    place_object(fields, object);
+    add(std::move(object));
+    break;
+  }
+  case kRectangle: {
+    Vec3 u = fields.vector("u", Vec3(1, 0, 0)), v = fields.vector("v", Vec3(0, 0, -1));
+    if (is_black(glm::cross(u, v))) fields.fail("'u' and 'v' span no area");
+    add(mesh_object(fields, "rectangle", make_rectangle(fields.vector("center", Vec3(0)), u, v)));
+    break;
+  }
+  case kPlane: {
+    Vec3 normal = normalize_or(fields.vector("normal", Vec3(0, 1, 0)), Vec3(0));
+    if (is_black(normal)) fields.fail("'normal' has no direction"), normal = Vec3(0, 1, 0);
+    float half = 0.5f * float(fields.number("size", 200, 1e-6, 1e6));
+    // u along x where it can be, so that texture coordinates lie as one expects on a floor.
+    Vec3 u = normalize_or(Vec3(1, 0, 0) - normal * normal.x, Vec3(0, 0, 1));
+    if (std::abs(normal.x) > 0.99f) u = normalize_or(Vec3(0, 0, 1) - normal * normal.z, Vec3(0, 0, 1));
+    Vec3 v = glm::cross(normal, u);
+    add(mesh_object(fields, "plane", make_rectangle(fields.vector("point", Vec3(0)), u * half, v * half)));
+    break;
+  }
+  case kBox: {
+    Vec3 size = fields.triple("size", Vec3(1));
+    if (!(size.x > 0 && size.y > 0 && size.z > 0)) fields.fail("'size' is positive");
+    add(mesh_object(fields, "box", make_box(fields.vector("center", Vec3(0)), size)));
+    break;
+  }
+  }
+  reading_.error = fields.finish();
+  return reading_.error.empty();
+}
+
+SceneReading SceneBuilder::build(SandboxRun run) {
+  for (const std::string& line : run.printed)
+    reading_.warnings.push_back(path_ + ": print: " + line);
+  reading_.error = run.error;
+  if (!run.error.empty()) return std::move(reading_);
+  for (size_t pass = 0; pass < 2; ++pass)
+    for (size_t i = 0; i < run.calls.size(); ++i)
+      if ((run.calls[i].function == kMaterial) == (pass == 0) && !apply(run.calls[i], i)) return std::move(reading_);
+  if (scene_.objects.empty()) {
+    reading_.error = path_ + ": the scene has no objects";
+    return std::move(reading_);
+  }
+  if (!has_camera_) scene_.camera = framing_camera(bounds_of(scene_));
+  if (scene_.lights.empty() && !has_emission_) add_daylight(scene_);
+  reading_.scene = std::move(scene_);
+  return std::move(reading_);
+}
+
+} // namespace
+
+SceneReading parse_lua_scene(const std::string& path, std::string_view text, const Folders& folders) {
+  return SceneBuilder(path, folders).build(run_scene_file(path, text, kFunctions, {{"time", 0.0}, {"frame", 0.0}}));
+}
+
+} // namespace moonshade::renderer

@@ -1,0 +1,138 @@
+// The description of a scene as plain data: what the readers (Lua, OBJ with MTL) produce and the renderer consumes.
+// Nothing here is prepared for rendering; files named by materials are already resolved to paths that may be opened.
+#pragma once
+
+#include "compiler/sema/shader_info.h"
+#include "renderer/math.h"
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace moonshade::renderer {
+
+/// Triangles in object space. Positions, normals and texture coordinates have indices of their own, as in OBJ.
+struct Mesh {
+  using Corners = std::array<uint32_t, 3>;
+
+  std::string name;
+  std::vector<Vec3> positions;
+  std::vector<Vec3> normals; ///< unit length
+  std::vector<Vec2> uvs;
+  std::vector<Corners> triangles;       ///< indices of positions
+  std::vector<Corners> normal_corners;  ///< per triangle, or empty: flat
+  std::vector<Corners> uv_corners;      ///< per triangle, or empty: no texture coordinates; kNoIndex: none here
+  std::vector<uint32_t> material_slots; ///< per triangle, an index into Object::materials, or empty: all 0
+
+  static constexpr uint32_t kNoIndex = UINT32_MAX;
+};
+
+/// What a material takes from a shader entry or a constant.
+enum class Slot : uint8_t { Color, Reflectance, Roughness, Metallic, Emission, Ior };
+inline constexpr size_t kSlotCount = 6;
+
+struct SlotInfo {
+  const char* name;    ///< entry of a shader, field of a scene's material
+  unsigned components; ///< 1 or 3
+  Vec3 default_value;
+};
+/// Facts of each slot, in the order of the enumeration.
+inline const std::array<SlotInfo, kSlotCount>& slot_infos() {
+  static const std::array<SlotInfo, kSlotCount> infos = {{{"color", 3, Vec3(0.8f)},
+                                                          {"reflectance", 3, Vec3(0)},
+                                                          {"roughness", 1, Vec3(0.5f)},
+                                                          {"metallic", 1, Vec3(0)},
+                                                          {"emission", 3, Vec3(0)},
+                                                          {"ior", 1, Vec3(1.5f)}}};
+  return infos;
+}
+
+/// How `height` bends the normal.
+enum class BumpMode : uint8_t { Gradient, Paper };
+
+struct Material {
+  std::string name;
+  std::string place; ///< "scene.lua:12", for messages
+  /// Constants; nothing where the file or the default decides.
+  std::array<std::optional<Vec3>, kSlotCount> values;
+  /// A shader file for one entry alone; wins over `shader`.
+  std::array<std::string, kSlotCount> shaders;
+  std::string height_shader;
+  /// Gives every entry that is not set above.
+  std::string shader;
+  std::map<std::string, Constant> parameters;
+  BumpMode bump = BumpMode::Gradient;
+  bool emits_outward_only = false; ///< an area light's
+};
+
+enum class Shape : uint8_t { Mesh, Sphere };
+
+struct Object {
+  std::string name;
+  Shape shape = Shape::Mesh;
+  std::shared_ptr<const Mesh> mesh; ///< Shape::Mesh
+  float radius = 1;                 ///< Shape::Sphere: around the origin of object space
+  Mat4 to_world{1.0f};
+  std::vector<uint32_t> materials; ///< indices into Scene::materials
+};
+
+enum class LightKind : uint8_t { Point, Sun, Sky };
+
+/// Lights that are no objects. (Area lights are objects whose material emits.)
+struct Light {
+  LightKind kind = LightKind::Point;
+  Vec3 position{0};        ///< Point
+  Vec3 direction{0, 1, 0}; ///< Sun: unit vector towards it
+  Vec3 color{1};           ///< Point: intensity (per steradian); Sun: irradiance on a surface that faces it
+  float angle = 0.53f;     ///< Sun: apparent diameter in degrees
+  Vec3 zenith{1}, horizon{1}, ground{1}; ///< Sky: radiance overhead, at the horizon and below it
+};
+
+struct Camera {
+  Vec3 from{0, 1, 5};
+  Vec3 to{0};
+  Vec3 up{0, 1, 0};
+  float fov = 40; ///< vertical, degrees
+};
+
+enum class IntegratorKind : uint8_t { Path, Whitted };
+enum class Tonemap : uint8_t { None, Filmic };
+
+struct Settings {
+  int width = 1280, height = 720;
+  uint32_t samples = 64;
+  uint32_t seed = 0;
+  uint32_t depth = 8;
+  IntegratorKind integrator = IntegratorKind::Path;
+  Tonemap tonemap = Tonemap::None;
+  float exposure = 0; ///< stops
+  float clamp = 0;    ///< 0: none
+  double time = 0;    ///< seconds, the shaders' `time`
+  int64_t frame = 0;
+};
+
+struct Scene {
+  std::string file;
+  Camera camera;
+  std::vector<Object> objects;
+  std::vector<Material> materials; ///< never empty: [0] is the default
+  std::vector<Light> lights;
+  Settings settings;
+};
+
+/// A scene, or why there is none; warnings in either case. Messages begin "FILE:LINE: ".
+struct SceneReading {
+  std::optional<Scene> scene;
+  std::string error;
+  std::vector<std::string> warnings;
+};
+
+/// World-space bounds of an object.
+Box bounds_of(const Object& object);
+Box bounds_of(const Scene& scene);
+
+} // namespace moonshade::renderer

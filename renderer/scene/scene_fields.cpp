@@ -1,0 +1,122 @@
+// Kinds of fields, and their messages.
+#include "renderer/scene/scene_fields.h"
+
+#include "renderer/scene/nearest_name.h"
+
+#include <sstream>
+
+namespace moonshade::renderer {
+
+void SceneFields::fail(const std::string& message) {
+  if (error_.empty()) error_ = place_ + ": " + what_ + ": " + message;
+}
+
+const SceneValue* SceneFields::find(std::string_view name) {
+  if (std::find(known_.begin(), known_.end(), name) == known_.end()) known_.push_back(name);
+  auto found = call_.fields.find(std::string(name));
+  return found == call_.fields.end() ? nullptr : &found->second;
+}
+
+void SceneFields::require(std::string_view name) {
+  if (!has(name)) fail("the field '" + std::string(name) + "' is missing");
+}
+
+static std::optional<double> as_number(const SceneValue& value) {
+  if (auto* i = std::get_if<int64_t>(&value.value)) return double(*i);
+  if (auto* d = std::get_if<double>(&value.value)) return *d;
+  return std::nullopt;
+}
+
+static std::string plain(double value) {
+  std::ostringstream text;
+  text << value;
+  return text.str();
+}
+
+double SceneFields::number(std::string_view name, double otherwise, double least, double most) {
+  const SceneValue* value = find(name);
+  if (!value) return otherwise;
+  std::optional<double> number = as_number(*value);
+  if (!number || !std::isfinite(*number)) {
+    fail("'" + std::string(name) + "' is a number");
+    return otherwise;
+  }
+  if (*number < least || *number > most) {
+    fail("'" + std::string(name) + "' lies between " + plain(least) + " and " + plain(most));
+    return otherwise;
+  }
+  return *number;
+}
+
+int64_t SceneFields::integer(std::string_view name, int64_t otherwise, int64_t least, int64_t most) {
+  double value = number(name, double(otherwise), double(least), double(most));
+  if (value != std::floor(value)) fail("'" + std::string(name) + "' is an integer");
+  return int64_t(value);
+}
+
+bool SceneFields::boolean(std::string_view name, bool otherwise) {
+  const SceneValue* value = find(name);
+  if (!value) return otherwise;
+  if (auto* b = std::get_if<bool>(&value->value)) return *b;
+  fail("'" + std::string(name) + "' is true or false");
+  return otherwise;
+}
+
+std::string SceneFields::text(std::string_view name, const std::string& otherwise) {
+  const SceneValue* value = find(name);
+  if (!value) return otherwise;
+  if (auto* s = std::get_if<std::string>(&value->value)) return *s;
+  fail("'" + std::string(name) + "' is a string");
+  return otherwise;
+}
+
+bool SceneFields::numbers(std::string_view name, const SceneValue& value, size_t count, double* out) {
+  const auto* list = std::get_if<SceneValue::List>(&value.value);
+  bool ok = list && list->size() == count;
+  for (size_t i = 0; ok && i < count; ++i) {
+    std::optional<double> number = as_number((*list)[i]);
+    ok = number && std::isfinite(*number) && std::abs(*number) <= 1e30;
+    if (ok) out[i] = *number;
+  }
+  if (!ok) fail("'" + std::string(name) + "' is a list of " + std::to_string(count) + " numbers");
+  return ok;
+}
+
+Vec3 SceneFields::vector(std::string_view name, const Vec3& otherwise) {
+  const SceneValue* value = find(name);
+  double v[3];
+  return value && numbers(name, *value, 3, v) ? Vec3(v[0], v[1], v[2]) : otherwise;
+}
+
+Vec3 SceneFields::triple(std::string_view name, const Vec3& otherwise) {
+  const SceneValue* value = find(name);
+  if (value && as_number(*value)) return Vec3(float(number(name, 0)));
+  return vector(name, otherwise);
+}
+
+Vec3 SceneFields::color(std::string_view name, const Vec3& otherwise) {
+  Vec3 v = triple(name, otherwise);
+  if (v.x < 0 || v.y < 0 || v.z < 0) fail("'" + std::string(name) + "' is not negative");
+  return v;
+}
+
+size_t SceneFields::choice(std::string_view name, std::span<const std::string_view> words) {
+  std::string word = text(name, std::string(words[0]));
+  for (size_t i = 0; i < words.size(); ++i)
+    if (words[i] == word) return i;
+  fail("unknown " + std::string(name) + " '" + word + "'" + did_you_mean(word, words) +
+       " (known: " + join_names(words) + ")");
+  return 0;
+}
+
+std::string SceneFields::finish() {
+  if (!call_.items.empty()) fail("takes named fields only: " + join_names(known_));
+  for (const auto& [name, value] : call_.fields)
+    if (std::find(known_.begin(), known_.end(), name) == known_.end()) {
+      std::string hint = did_you_mean(name, known_);
+      fail("unknown field '" + name + "'" + (hint.empty() ? " (known: " + join_names(known_) + ")" : hint));
+    }
+  return error_;
+}
+
+} // namespace moonshade::renderer

@@ -1,0 +1,117 @@
+// moonrender SCENE.lua|MODEL.obj [options] -o IMAGE: reads, prepares, renders, writes. The work is the library's.
+#include "renderer/film/image_file.h"
+#include "renderer/scene/read_scene.h"
+#include "tools/moonrender/options.h"
+#include "tools/moonrender/progress.h"
+#include "tools/moonrender/stats.h"
+
+#include <csignal>
+#include <cstdio>
+#include <iostream>
+#include <new>
+#include <unistd.h>
+
+namespace moonshade::moonrender {
+
+namespace {
+
+enum Exit { kDone = 0, kInputAtFault = 1, kCallAtFault = 2, kMachineAtFault = 3, kInterrupted = 130 };
+
+/// What a signal handler may touch.
+std::atomic<bool>* g_cancel = nullptr;
+
+void interrupt(int) { g_cancel->store(true); }
+
+/// The first Ctrl-C asks for an end after the passes done, the second ends at once.
+void catch_interrupts(std::atomic<bool>& cancel) {
+  g_cancel = &cancel;
+  struct sigaction action{};
+  action.sa_handler = interrupt;
+  action.sa_flags = int(SA_RESETHAND | SA_RESTART);
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+}
+
+int fail(int code, const std::string& message) {
+  // Messages that name a place of a file begin with it, as compilers' do.
+  std::cerr << message << (message.ends_with('\n') ? "" : "\n");
+  return code;
+}
+
+void list_faults(const renderer::RenderResult& result) {
+  if (result.faults.empty()) return;
+  std::cerr << "moonrender: " << result.fault_count
+            << " points without a value (magenta where the camera sees them):\n";
+  size_t shown = 0;
+  for (const auto& [key, count] : result.faults) {
+    if (++shown > 20) {
+      std::cerr << "  and " << result.faults.size() - 20 << " more places\n";
+      break;
+    }
+    const char* kind = key.code == renderer::kNotFinite ? "not finite" : fault_name(FaultCode(key.code));
+    if (!key.file.empty()) std::cerr << key.file << (key.line ? ":" + std::to_string(key.line) : "") << ": ";
+    std::cerr << "fault: " << kind << " in '" << key.entry << "'" << (key.message.empty() ? "" : ": " + key.message)
+              << ", " << count << (count == 1 ? " point\n" : " points\n");
+  }
+}
+
+int run(const Options& options) {
+  Timer timer;
+  renderer::SceneReading reading = renderer::read_scene(options.scene);
+  for (const std::string& warning : reading.warnings)
+    std::cerr << warning.substr(0, warning.find(": ")) << ": warning" << warning.substr(warning.find(": ")) << "\n";
+  if (!reading.scene) return fail(kInputAtFault, reading.error);
+  if (std::string error = apply(options, reading.scene->settings); !error.empty())
+    return fail(kCallAtFault, "moonrender: error: " + error);
+  renderer::ImageFile image;
+  if (std::string error = image.open(options.output); !error.empty())
+    return fail(kCallAtFault, "moonrender: error: " + error);
+  double read_seconds = timer.lap();
+
+  auto shaders = renderer::runtime_shaders(options.shaders);
+  renderer::Preparation preparation = renderer::prepare(std::move(*reading.scene), *shaders, options.overrides);
+  std::cerr << preparation.warnings;
+  if (!preparation.prepared)
+    return fail(preparation.machine_at_fault ? kMachineAtFault : kInputAtFault, preparation.error);
+  const renderer::PreparedScene& prepared = *preparation.prepared;
+  const renderer::Settings& settings = prepared.scene.settings;
+
+  renderer::RenderProgress progress;
+  catch_interrupts(progress.cancel);
+  renderer::RenderResult result;
+  {
+    ProgressDisplay display(progress, settings.samples, options.render.seconds);
+    result = renderer::render(prepared, options.render, progress);
+  }
+  list_faults(result);
+  if (result.samples == 0)
+    return fail(kInterrupted, "moonrender: interrupted before the first pass was done; no image");
+
+  Timer writing;
+  renderer::ImageMetadata metadata{version(),      options.scene,      settings.seed, result.samples,
+                                   result.seconds, result.interrupted, settings.clamp};
+  std::string error = image.write(result.picture, {settings.exposure, settings.tonemap}, metadata);
+  if (!error.empty()) return fail(kMachineAtFault, "moonrender: error: " + error);
+  result.stats.film_seconds += writing.lap();
+  error = write_stats(options, prepared, result, read_seconds + prepared.geometry_seconds);
+  if (!error.empty()) return fail(kMachineAtFault, "moonrender: error: " + error);
+  if (result.interrupted)
+    std::cerr << "moonrender: interrupted; the image has " << result.samples << " of " << settings.samples
+              << " samples\n";
+  return result.interrupted ? kInterrupted : kDone;
+}
+
+} // namespace
+
+} // namespace moonshade::moonrender
+
+int main(int argc, char** argv) {
+  using namespace moonshade::moonrender;
+  ParsedOptions parsed = parse_options(argc, argv);
+  if (!parsed.options) return parsed.exit_code;
+  try {
+    return run(*parsed.options);
+  } catch (const std::bad_alloc&) {
+    return fail(kMachineAtFault, "moonrender: error: not enough memory");
+  }
+}

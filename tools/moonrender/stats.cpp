@@ -1,0 +1,53 @@
+// `load`, `compile` and `render` are wall-clock seconds; `shade`, `trace`, `film` and `shaders` (the part of `shade`
+// within shaders) are sums over the threads.
+#include "tools/moonrender/stats.h"
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <sys/resource.h>
+#include <unistd.h>
+
+namespace moonshade::moonrender {
+
+static uint64_t peak_memory_bytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return uint64_t(usage.ru_maxrss) * 1024;
+}
+
+std::string write_stats(const Options& options, const renderer::PreparedScene& scene,
+                        const renderer::RenderResult& result, double load_seconds) {
+  if (options.stats.empty()) return "";
+  const renderer::WorkerStats& s = result.stats;
+  nlohmann::ordered_json json;
+  json["seconds"] = {{"load", load_seconds},       {"compile", scene.compile_seconds}, {"render", result.seconds},
+                     {"shade", s.shade_seconds},   {"trace", s.trace_seconds},         {"film", s.film_seconds},
+                     {"shaders", s.shader_seconds}};
+  json["paths"] = s.paths;
+  json["rays"] = s.rays;
+  json["shading_points"] = s.shading_points;
+  json["faults"] = result.fault_count;
+  json["peak_memory_bytes"] = peak_memory_bytes();
+  json["threads"] = result.threads;
+  json["width"] = scene.materials.width();
+  json["samples"] = result.samples;
+  json["interrupted"] = result.interrupted;
+  json["backend"] = options.shaders.backend == renderer::Backend::Jit ? "jit" : "interp";
+  std::string text = json.dump(2) + "\n";
+  if (options.stats == "-") return std::cout << text << std::flush, "";
+  std::string temporary = options.stats + ".tmp" + std::to_string(::getpid());
+  std::ofstream file(temporary, std::ios::binary);
+  file << text;
+  file.close();
+  if (!file || std::rename(temporary.c_str(), options.stats.c_str()) != 0) {
+    std::string error = options.stats + ": " + std::strerror(errno);
+    ::unlink(temporary.c_str());
+    return error;
+  }
+  return "";
+}
+
+} // namespace moonshade::moonrender
