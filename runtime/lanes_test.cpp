@@ -1,94 +1,19 @@
 // Code generation end to end, from modules built by hand: every width and precision gives the bits of one lane.
-#include "compiler/ir/builder.h"
-#include "compiler/ir/print.h"
-#include "compiler/ir/verify.h"
-#include "runtime/kernel_harness.h"
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
+#include "runtime/module_fixture.h"
 
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <random>
 
 namespace moonshade {
 namespace {
 
 using enum ValueType;
 using ir::Op;
-using testing::Column;
-using testing::CompiledModule;
-using testing::integers;
-using testing::numbers;
-using testing::Outcome;
+using namespace testing;
 
-const LibraryFunction& row(std::string_view symbol) {
-  for (const LibraryFunction& function : library())
-    if (function.symbol == symbol) return function;
-  ADD_FAILURE() << "no library function " << symbol;
-  std::abort();
-}
-
-/// A module with one entry; `body` builds it.
-template <class Body>
-ir::Module one_entry(std::vector<ValueType> parameters, std::vector<ValueType> results, Body&& body) {
-  ir::Module module;
-  ir::Function& function = module.functions.emplace_back();
-  function.name = "main";
-  function.parameters = std::move(parameters);
-  for (size_t i = 0; i < function.parameters.size(); ++i)
-    function.parameter_names.push_back("x" + std::to_string(i));
-  function.results = std::move(results);
-  module.entries.push_back({"main", 0});
-  {
-    ir::Builder builder(function);
-    body(builder);
-  }
-  module.functions.emplace_back().name = "init";
-  module.init = 1;
-  return module;
-}
-
-std::vector<double> some_numbers(size_t count, double scale = 4) {
-  std::mt19937 random(count);
-  std::uniform_real_distribution<double> distribution(-scale, scale);
-  std::vector<double> values;
-  while (values.size() < count)
-    values.push_back(static_cast<float>(distribution(random)));
-  return values;
-}
-
-/// The outcome of one lane, after checking that every width agrees with it, for all counts in `counts`.
-Outcome same_everywhere(const ir::Module& module, Precision precision, const std::vector<Column>& inputs,
-                        uint64_t count, const codegen::Options& base = {}) {
-  EXPECT_THAT(ir::verify(module), ::testing::IsEmpty()) << ir::to_text(module);
-  codegen::Options options = base;
-  options.precision = precision;
-  options.width = 1;
-  const Outcome expected = CompiledModule(module, options).run(inputs, count);
-  for (const unsigned width : kWidths) {
-    for (const int level : {0, 2}) {
-      options.width = width;
-      options.optimization = level;
-      const CompiledModule compiled(module, options);
-      const Outcome outcome = compiled.run(inputs, count);
-      EXPECT_EQ(outcome.bits, expected.bits) << "width " << width << " -O" << level << "\n" << ir::to_text(module);
-      EXPECT_EQ(outcome.fault_codes, expected.fault_codes) << "width " << width << " -O" << level;
-      EXPECT_EQ(outcome.fault_count, expected.fault_count);
-      EXPECT_EQ(outcome.first_point, expected.first_point);
-      if (::testing::Test::HasFailure()) return expected;
-    }
-  }
-  return expected;
-}
-
-class Lanes : public ::testing::TestWithParam<Precision> {
-protected:
-  Precision precision() const { return GetParam(); }
-};
-INSTANTIATE_TEST_SUITE_P(, Lanes, ::testing::Values(Precision::F32, Precision::F64),
-                         [](const auto& info) { return info.param == Precision::F32 ? "f32" : "f64"; });
+using Lanes = DomainTest;
+INSTANTIATE_TEST_SUITE_P(, Lanes, both_precisions(), precision_name);
 
 TEST_P(Lanes, ComputeStraightCode) {
   const ir::Module module = one_entry({Vec3, Number}, {Vec3, Boolean}, [](ir::Builder& b) {
@@ -237,28 +162,19 @@ TEST_P(Lanes, IndexArraysByLane) {
     const auto k = b.argument(0), x = b.argument(1);
     const auto table = b.variable("table", Number, 5), squares = b.variable("squares", Vec2, 9);
     const auto flags = b.variable("flags", Boolean, 4);
-    const auto element = [&](Op op, ir::VariableId variable, std::vector<ir::ValueId> operands, ValueType type) {
-      ir::Instruction instruction;
-      instruction.op = op;
-      instruction.type = type;
-      instruction.index = variable;
-      instruction.operands = std::move(operands);
-      return b.append(instruction);
-    };
     for (int i = 0; i < 5; ++i)
-      element(Op::StoreElement, table, {b.integer(i), b.number(i * 10)}, Boolean);
+      store_element(b, table, b.integer(i), b.number(i * 10));
     for (int i = 0; i < 9; ++i)
-      element(Op::StoreElement, squares, {b.integer(i), b.construct(Vec2, {x, b.number(i)})}, Boolean);
+      store_element(b, squares, b.integer(i), b.construct(Vec2, {x, b.number(i)}));
     for (int i = 0; i < 4; ++i)
-      element(Op::StoreElement, flags, {b.integer(i), b.compare(Op::Lt, x, b.number(i))}, Boolean);
+      store_element(b, flags, b.integer(i), b.compare(Op::Lt, x, b.number(i)));
     const auto inside = b.binary(Op::And, k, b.integer(3));
     b.if_else(b.compare(Op::Lt, x, b.number(0)), b.block([&] {
-      element(Op::StoreElement, squares, {inside, b.construct(Vec2, {b.number(-1), b.number(-1)})}, Boolean);
-      element(Op::StoreElement, flags, {inside, b.boolean(false)}, Boolean);
+      store_element(b, squares, inside, b.construct(Vec2, {b.number(-1), b.number(-1)}));
+      store_element(b, flags, inside, b.boolean(false));
     }));
-    b.return_values({element(Op::LoadElement, table, {inside}, Number),
-                     element(Op::LoadElement, squares, {inside}, Vec2),
-                     element(Op::LoadElement, flags, {inside}, Boolean)});
+    b.return_values({load_element(b, table, inside, Number), load_element(b, squares, inside, Vec2),
+                     load_element(b, flags, inside, Boolean)});
   });
   std::vector<int64_t> keys;
   for (int64_t i = 0; i < 70; ++i)

@@ -50,7 +50,7 @@ struct FaultReport {
   uint64_t count = 0;       ///< points that faulted
   uint64_t first_point = 0; ///< index in the batch of the lowest of them
   FaultCode first_code = FaultCode::None;
-  uint32_t first_site = 0;  ///< of the first: for Shader::fault_site
+  uint32_t first_site = 0; ///< of the first: for Shader::fault_site
 };
 
 /// A batch of points. Inputs and outputs are structure-of-arrays: one array a component, each of `count` elements,

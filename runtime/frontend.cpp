@@ -1,0 +1,69 @@
+// Parsing, checking and printing the stages of one shader (frontend.h).
+#include "runtime/frontend.h"
+
+#include "compiler/codegen/codegen.h"
+#include "compiler/ir/print.h"
+#include "compiler/syntax/ast.h"
+#include "runtime/frontend_parts.h"
+#include "runtime/stopwatch.h"
+
+#include <algorithm>
+#include <sstream>
+
+namespace moonshade {
+
+CheckedShader::CheckedShader(const std::string& name, const std::string& text, const std::vector<std::string>& entries)
+    : parts_(std::make_unique<Parts>()) {
+  Stopwatch watch;
+  const FileId file = parts_->sources.add(name, text);
+  parts_->chunk = syntax::parse(parts_->sources, file, parts_->arena, parts_->diagnostics);
+  parts_->parse_milliseconds = watch.lap();
+  if (!ok()) return;
+  parts_->program = sema::check(*parts_->chunk, {entries}, parts_->diagnostics);
+  parts_->sema_milliseconds = watch.lap();
+}
+
+CheckedShader::~CheckedShader() = default;
+CheckedShader::CheckedShader(CheckedShader&&) noexcept = default;
+CheckedShader& CheckedShader::operator=(CheckedShader&&) noexcept = default;
+
+bool CheckedShader::ok() const { return !parts_->diagnostics.has_errors(); }
+const ShaderInfo& CheckedShader::info() const { return parts_->program.info; }
+const Diagnostics& CheckedShader::diagnostics() const { return parts_->diagnostics; }
+const SourceSet& CheckedShader::sources() const { return parts_->sources; }
+
+ir::Module build_module(const CheckedShader& shader, const CompileOptions& options) {
+  ir::Module module = ir::build(shader.parts().program, {options.step_limit});
+  if (!options.entries.empty())
+    std::erase_if(module.entries, [&](const ir::Entry& entry) {
+      return std::ranges::find(options.entries, entry.name) == options.entries.end();
+    });
+  // At every level: which products and sums become one operation is part of what f32 means.
+  ir::optimize(module, options.precision);
+  return module;
+}
+
+codegen::Options codegen_options(const CompileOptions& options) {
+  return {options.precision, options.width, options.optimization, options.cpu, options.target, options.uniform_inputs};
+}
+
+Emission emit(const CheckedShader& shader, Stage stage, const CompileOptions& options) {
+  if (stage == Stage::Ast) {
+    std::ostringstream text;
+    syntax::print_ast(*shader.parts().chunk, text);
+    return {text.str(), ""};
+  }
+  if (!shader.ok()) return {"", "the shader has errors"};
+  const ir::Module module = build_module(shader, options);
+  if (stage == Stage::Ir) return {ir::to_text(module), ""};
+  codegen::Generated generated = codegen::generate(module, codegen_options(options));
+  if (!generated.error.empty()) return {"", generated.error};
+  Emission emission;
+  if (stage == Stage::Llvm) emission.bytes = generated.llvm_text();
+  if (stage == Stage::Assembly) emission.bytes = generated.assembly();
+  if (stage == Stage::Object) emission.bytes = generated.object();
+  emission.error = generated.error;
+  return emission;
+}
+
+} // namespace moonshade

@@ -1,0 +1,27 @@
+// What a checked shader consists of, for the runtime's own files.
+#pragma once
+
+#include "compiler/base/arena.h"
+#include "compiler/codegen/codegen.h"
+#include "compiler/ir/build.h"
+#include "compiler/ir/passes.h"
+#include "compiler/sema/program.h"
+#include "compiler/syntax/parser.h"
+#include "runtime/frontend.h"
+
+namespace moonshade {
+
+struct CheckedShader::Parts {
+  SourceSet sources;
+  Arena arena;
+  Diagnostics diagnostics;
+  syntax::Chunk* chunk = nullptr;
+  sema::Program program;
+  double parse_milliseconds = 0, sema_milliseconds = 0;
+};
+
+/// The optimised IR of the entries that the options ask for.
+ir::Module build_module(const CheckedShader& shader, const CompileOptions& options);
+codegen::Options codegen_options(const CompileOptions& options);
+
+} // namespace moonshade

@@ -1,0 +1,234 @@
+// Compiled programs and their instances (shader.h): the JIT's code, blocks of constants, batch calls.
+#include "compiler/codegen/batch.h"
+#include "compiler/codegen/codegen.h"
+#include "runtime/floating_point.h"
+#include "runtime/frontend_parts.h"
+#include "runtime/jit.h"
+#include "runtime/shader.h"
+#include "runtime/stopwatch.h"
+
+#include <llvm/Config/llvm-config.h>
+
+#include <algorithm>
+#include <cstring>
+#include <optional>
+#include <sstream>
+
+namespace moonshade {
+
+namespace {
+
+/// Where a parameter's value goes in the block of constants.
+struct ParameterSlot {
+  size_t parameter; ///< index into ShaderInfo::parameters
+  ValueType type;
+  uint64_t offset;
+};
+
+/// What the instances of a program share.
+struct Compiled {
+  std::optional<JitCode> code;
+  codegen::CodeInfo generated;
+  ShaderInfo info;
+  std::vector<codegen::Kernel> kernels; ///< by entry
+  void (*init)(void* constants, uint32_t* fault) = nullptr;
+  std::vector<ParameterSlot> slots;
+  std::vector<FaultSite> sites;
+  CompileTimes times;
+};
+
+/// One instance's constants; aligned for any element.
+struct Constants {
+  explicit Constants(uint64_t size) : bytes(new std::byte[size]()) {}
+  std::unique_ptr<std::byte[]> bytes;
+};
+
+class CompiledShader final : public Shader {
+public:
+  CompiledShader(std::shared_ptr<const Compiled> compiled, Constants constants)
+      : compiled_(std::move(compiled)), constants_(std::move(constants)) {}
+
+  const ShaderInfo& info() const override { return compiled_->info; }
+  Precision precision() const override { return compiled_->generated.precision; }
+  unsigned width() const override { return compiled_->generated.width; }
+
+  void run(size_t entry, const Batch& batch) const override {
+    const DefaultFloatingPoint environment;
+    codegen::BatchFaults faults;
+    const codegen::KernelBatch call{batch.count, batch.inputs, batch.outputs, constants_.bytes.get(), nullptr};
+    codegen::run_batch(compiled_->kernels[entry], compiled_->generated.entries[entry].info, call, faults,
+                       batch.fault_codes);
+    if (batch.faults == nullptr || faults.count == 0) return;
+    *batch.faults = {faults.count, faults.first_point, compiled_->generated.places[faults.first_site].code,
+                     faults.first_site};
+  }
+
+  FaultSite fault_site(uint32_t site) const override {
+    return site < compiled_->sites.size() ? compiled_->sites[site] : FaultSite{};
+  }
+
+private:
+  std::shared_ptr<const Compiled> compiled_;
+  Constants constants_;
+};
+
+void store_number(std::byte* target, Precision precision, double value) {
+  const auto narrow = static_cast<float>(value);
+  if (precision == Precision::F32)
+    std::memcpy(target, &narrow, sizeof narrow);
+  else
+    std::memcpy(target, &value, sizeof value);
+}
+
+/// Writes a value that check_override has passed.
+void store_constant(std::byte* target, ValueType type, Precision precision, const Constant& value) {
+  const size_t size = precision == Precision::F32 ? sizeof(float) : sizeof(double);
+  if (const auto* boolean = std::get_if<bool>(&value)) {
+    *target = std::byte{*boolean};
+  } else if (const auto* integer = std::get_if<int64_t>(&value)) {
+    if (type == ValueType::Integer)
+      std::memcpy(target, integer, sizeof *integer);
+    else
+      store_number(target, precision, static_cast<double>(*integer));
+  } else if (const auto* number = std::get_if<double>(&value)) {
+    store_number(target, precision, *number);
+  } else if (const auto* vector = std::get_if<std::vector<double>>(&value)) {
+    for (size_t c = 0; c < vector->size() && c < component_count(type); ++c)
+      store_number(target + c * size, precision, (*vector)[c]);
+  }
+}
+
+std::string describe(const FaultSite& site, FaultCode code) {
+  std::ostringstream text;
+  text << site.file << ':' << site.line << ':' << site.column << ": the top level faults: " << fault_name(code);
+  if (!site.message.empty()) text << ": " << site.message;
+  return text.str();
+}
+
+class CompiledProgram final : public Program {
+public:
+  explicit CompiledProgram(std::shared_ptr<const Compiled> compiled) : compiled_(std::move(compiled)) {}
+
+  const ShaderInfo& info() const override { return compiled_->info; }
+  unsigned width() const override { return compiled_->generated.width; }
+  const CompileTimes& times() const override { return compiled_->times; }
+
+  Instantiation instantiate(const std::map<std::string, Constant>& parameters) const override {
+    std::vector<Constant> values;
+    if (std::string error = parameter_values(parameters, values); !error.empty()) return {nullptr, error};
+    Constants constants(compiled_->generated.constants_size);
+    for (const ParameterSlot& slot : compiled_->slots)
+      store_constant(constants.bytes.get() + slot.offset, slot.type, compiled_->generated.precision,
+                     values[slot.parameter]);
+    if (compiled_->init != nullptr) {
+      const DefaultFloatingPoint environment;
+      uint32_t fault = 0;
+      compiled_->init(constants.bytes.get(), &fault);
+      if (fault != 0)
+        return {nullptr, describe(compiled_->sites[fault - 1], compiled_->generated.places[fault - 1].code)};
+    }
+    return {std::make_shared<CompiledShader>(compiled_, std::move(constants)), ""};
+  }
+
+private:
+  /// The value of each parameter: as given, or its default.
+  std::string parameter_values(const std::map<std::string, Constant>& given, std::vector<Constant>& values) const {
+    const std::vector<ParameterInfo>& parameters = compiled_->info.parameters;
+    for (const auto& [name, value] : given)
+      if (std::ranges::find(parameters, name, &ParameterInfo::name) == parameters.end())
+        return "the shader has no parameter '" + name + "'";
+    for (const ParameterInfo& parameter : parameters) {
+      const auto override_value = given.find(parameter.name);
+      if (override_value == given.end()) {
+        values.push_back(parameter.default_value);
+        continue;
+      }
+      CheckedConstant checked = check_override(parameter, override_value->second);
+      if (!checked.error.empty()) return checked.error;
+      values.push_back(std::move(checked.value));
+    }
+    return {};
+  }
+
+  std::shared_ptr<const Compiled> compiled_;
+};
+
+std::string diagnostics_text(const CheckedShader& shader, bool color) {
+  std::ostringstream text;
+  print_text(shader.diagnostics(), shader.sources(), text, color);
+  return text.str();
+}
+
+FaultSite resolve(const SourceSet& sources, const codegen::FaultPlaceInfo& place) {
+  if (!place.span.has_place()) return {"", 0, 0, place.message};
+  const LineColumn position = sources.position(place.span.file, place.span.begin);
+  return {std::string(sources.name(place.span.file)), position.line, position.column, place.message};
+}
+
+/// The shader's facts, with the entries of the module, in its order.
+ShaderInfo compiled_info(const ShaderInfo& info, const ir::Module& module) {
+  ShaderInfo compiled = info;
+  compiled.entries.clear();
+  for (const ir::Entry& entry : module.entries)
+    compiled.entries.push_back(*info.find_entry(entry.name));
+  return compiled;
+}
+
+/// Loads the object code; the error where that fails.
+std::string load(Compiled& compiled, std::string object) {
+  compiled.code = JitCode::load(std::move(object));
+  if (!compiled.code->error().empty()) return compiled.code->error();
+  for (const codegen::EntryCode& entry : compiled.generated.entries) {
+    auto* kernel = reinterpret_cast<codegen::Kernel>(compiled.code->function(entry.symbol));
+    if (kernel == nullptr) return "the code of '" + entry.symbol + "' cannot be linked";
+    compiled.kernels.push_back(kernel);
+  }
+  if (compiled.generated.init_symbol.empty()) return {};
+  void* init = compiled.code->function(compiled.generated.init_symbol);
+  compiled.init = reinterpret_cast<void (*)(void*, uint32_t*)>(init);
+  return compiled.init == nullptr ? "the code of the top level cannot be linked" : "";
+}
+
+} // namespace
+
+Compilation compile(const CheckedShader& shader, const CompileOptions& options) {
+  Stopwatch watch;
+  std::string diagnostics = diagnostics_text(shader, options.color_diagnostics);
+  if (!shader.ok()) return {nullptr, diagnostics};
+  auto compiled = std::make_shared<Compiled>();
+  CompileTimes& times = compiled->times;
+  times.parse = shader.parts().parse_milliseconds;
+  times.sema = shader.parts().sema_milliseconds;
+  watch.lap();
+  const ir::Module module = build_module(shader, options);
+  times.ir = watch.lap();
+  codegen::Generated generated = codegen::generate(module, codegen_options(options));
+  times.emit = generated.times.emit;
+  times.optimize = generated.times.optimize;
+  watch.lap();
+  std::string object;
+  if (generated.error.empty()) object = generated.object();
+  if (!generated.error.empty()) return {nullptr, diagnostics + "error: " + generated.error + "\n"};
+  compiled->generated = std::move(generated.info);
+  compiled->info = compiled_info(shader.info(), module);
+  for (size_t i = 0; i < module.globals.size(); ++i)
+    if (const ir::Global& global = module.globals[i]; global.parameter != ir::kNone)
+      compiled->slots.push_back({global.parameter, global.type, compiled->generated.global_offsets[i]});
+  for (const codegen::FaultPlaceInfo& place : compiled->generated.places)
+    compiled->sites.push_back(resolve(shader.sources(), place));
+  if (std::string error = load(*compiled, std::move(object)); !error.empty())
+    return {nullptr, diagnostics + "error: " + error + "\n"};
+  times.codegen = watch.lap();
+  times.total = times.parse + times.sema + times.ir + times.emit + times.optimize + times.codegen;
+  return {std::make_shared<CompiledProgram>(std::move(compiled)), std::move(diagnostics)};
+}
+
+Compilation compile(const std::string& name, const std::string& text, const CompileOptions& options) {
+  return compile(CheckedShader(name, text, options.entries), options);
+}
+
+unsigned native_width(Precision precision) { return codegen::native_width(precision); }
+
+std::string version() { return "moonshade " MOONSHADE_VERSION " (LLVM " LLVM_VERSION_STRING ")"; }
+
+} // namespace moonshade
