@@ -237,6 +237,24 @@ TEST(Accepted, MixedComparisonsNameTheirRow) {
   EXPECT_THAT(rows, testing::UnorderedElementsAre("op.lt number", "op.eq integer"));
 }
 
+TEST(Accepted, OperatorsOnVectorsHaveTheRowOfNumbers) {
+  const Checked checked("function color(p) local a, b = p % 1, p // vec3(1)\n  return (a + b) ^ 2.5 end");
+  ASSERT_EQ(checked.text, "");
+  unsigned rows = 0;
+  for (const auto& [id, fact] : checked.find("color")->expressions)
+    rows += fact.library != nullptr;
+  EXPECT_EQ(rows, 3u);
+}
+
+TEST(Accepted, ExtremaOfAnyNumberOfArguments) {
+  const Checked checked("function height(p)\n  local a, b = math.max(1, 2, 3), math.min(1, p.x)\n"
+                        "  local c = math.max(p.x, p.y, p.z)\n  return math.max(a) + b + c\nend");
+  ASSERT_EQ(checked.text, "");
+  EXPECT_TRUE(checked.local_type("height", "a").is(ValueType::Integer));
+  EXPECT_TRUE(checked.local_type("height", "b").mixed);
+  EXPECT_FALSE(checked.local_type("height", "c").mixed);
+}
+
 TEST(Accepted, ParametersOfEveryType) {
   const Checked checked("local a = param('a', 3)\nlocal b = param('b', -2.5)\nlocal c = param('c', true)\n"
                         "local d = param('d', rgb(1, 0.5, 0), { min = 0, max = 1 })\n"

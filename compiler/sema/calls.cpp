@@ -116,6 +116,7 @@ TypeList Walker::call_library(const CallExpr& expr, std::string_view name) {
   if (name == "assert" || name == "error") return assert_or_error(expr, name == "assert");
   if (name == "vec2" || name == "vec3" || name == "vec4" || name == "rgb") return construct(expr, name);
   if (name == "math.floor" || name == "math.ceil" || name == "math.tointeger") return to_integer(expr, name);
+  if (name == "math.max" || name == "math.min") return extremum(expr, name);
   if (name == "math.type") return math_type(expr);
   const TypeList types = arguments(expr.args);
   if (types.open) return unknown_values();
@@ -215,7 +216,7 @@ TypeList Walker::to_integer(const CallExpr& expr, std::string_view name) {
   fact.results = {fact.type};
   fact.call = type.is(ValueType::Integer) ? CallKind::Convert : CallKind::ToInteger;
   if (fact.call == CallKind::ToInteger) {
-    const auto rows = library_overloads(name == "math.tointeger" ? "op.toint" : name);
+    const auto rows = library_overloads(name);
     for (const LibraryFunction& row : rows)
       if (row.parameter_count == 1 && row.parameters[0] == ValueType::Number) fact.library = &row;
     if (fact.library == nullptr)
@@ -240,7 +241,11 @@ TypeList Walker::math_type(const CallExpr& expr) {
     return one(unknown_type());
   }
   const Type result = string_type(type.is(ValueType::Integer) ? "integer" : "float");
-  return one(record(expr, result));
+  ExpressionFact fact;
+  fact.type = result;
+  fact.results = {result};
+  fact.call = CallKind::Convert; // evaluates its argument; nobody looks at the value
+  return one(record(expr, std::move(fact)));
 }
 
 TypeList Walker::assert_or_error(const CallExpr& expr, bool is_assert) {

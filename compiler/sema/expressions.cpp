@@ -352,11 +352,12 @@ Type Walker::vector_component(const IndexExpr& expr, const Type& object) {
 }
 
 Type Walker::table(const TableExpr& expr) {
-  error(Code::NotAvailableYet, expr.span, {"tables are"});
+  if (table_depth_++ == 0) error(Code::NotAvailableYet, expr.span, {"tables are"});
   for (const TableField& field : expr.fields) {
     if (field.kind == FieldKind::Keyed) expression(*field.key);
     values(*field.value);
   }
+  --table_depth_;
   return unknown_type();
 }
 

@@ -133,20 +133,39 @@ LibraryMisfit explain_misfit(std::span<const LibraryFunction> rows, const std::v
   return misfit;
 }
 
-namespace {
-
-/// Functions of Lua's that take any number of arguments but stand in the table with two.
-bool is_variadic(std::string_view name) { return name == "math.max" || name == "math.min"; }
-
-} // namespace
+/// math.max and math.min take any number of arguments, though their rows have two: all integers give an integer, a
+/// number among integers a mixed number.
+TypeList Walker::extremum(const CallExpr& expr, std::string_view name) {
+  const TypeList args = arguments(expr.args);
+  if (args.open || std::ranges::any_of(args.types, is_unknown)) return {{}, true};
+  if (args.types.empty()) {
+    error(Code::MissingArgument, expr.span, {"1", std::string(name), "a"});
+    return {{}, true};
+  }
+  bool any_number = false, any_integer = false;
+  for (size_t i = 0; i < args.types.size(); ++i) {
+    const Type& type = args.types[i];
+    if (!is_scalar(type)) {
+      type_error(Code::ArgumentType, expr.args[std::min(i, expr.args.size() - 1)]->span,
+                 {std::to_string(i + 1), std::string(name), describe(type), "a number"});
+      return {{}, true};
+    }
+    any_number = any_number || type.is(ValueType::Number);
+    any_integer = any_integer || type.is(ValueType::Integer) || type.mixed;
+  }
+  ExpressionFact fact;
+  fact.type = !any_number ? integer_type() : any_integer ? mixed_type() : number_type();
+  fact.results = {fact.type};
+  fact.call = CallKind::Library;
+  const std::vector<Type> pair(2, Type::of(fact.type.value));
+  fact.library = choose_row(library_overloads(name), pair).row;
+  return {{record(expr, std::move(fact))}, false};
+}
 
 TypeList Walker::call_table_row(const Expr& expr, std::string_view name, const std::vector<const Expr*>& args,
                                 const std::vector<Type>& types) {
   const auto rows = library_overloads(name);
-  if (std::ranges::any_of(types, is_unknown)) {
-    // Where every row has the same results, they are known all the same, and later errors with them.
-    return {{}, true};
-  }
+  if (std::ranges::any_of(types, is_unknown)) return {{}, true};
   const LibraryChoice choice = choose_row(rows, types);
   if (choice.row == nullptr) {
     if (!context_.report) return {{}, true};
@@ -158,11 +177,7 @@ TypeList Walker::call_table_row(const Expr& expr, std::string_view name, const s
       type_error(Code::MissingArgument, expr.span, {std::to_string(types.size() + 1), text, misfit.name});
       break;
     case LibraryMisfit::Kind::TooMany:
-      if (is_variadic(name)) {
-        error(Code::NotAvailableYet, argument, {"'" + text + "' of more than two arguments is"});
-      } else {
-        error(Code::TooManyArguments, argument, {text, std::to_string(misfit.most)});
-      }
+      error(Code::TooManyArguments, argument, {text, std::to_string(misfit.most)});
       break;
     case LibraryMisfit::Kind::Argument:
       type_error(Code::ArgumentType, argument,

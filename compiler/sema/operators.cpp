@@ -18,12 +18,11 @@ bool is_ordering(BinaryOp op) {
   return op == BinaryOp::Lt || op == BinaryOp::Le || op == BinaryOp::Gt || op == BinaryOp::Ge;
 }
 
-/// The library's row "op.*" for two operands of these types.
+/// The library's row "op.*" for two operands of these types; vectors take the row of numbers, component by component.
 const LibraryFunction* operator_row(std::string_view name, ValueType left, ValueType right) {
   const auto scalar = [](ValueType type) { return is_vector(type) ? ValueType::Number : type; };
   for (const LibraryFunction& row : library_overloads(name))
-    if (row.parameter_count == 2 && row.parameters[0] == scalar(left) && row.parameters[1] == scalar(right) &&
-        (row.componentwise || (!is_vector(left) && !is_vector(right))))
+    if (row.parameter_count == 2 && row.parameters[0] == scalar(left) && row.parameters[1] == scalar(right))
       return &row;
   return nullptr;
 }

@@ -62,8 +62,8 @@ enum class NameKind : uint8_t {
 /// What a call does.
 enum class CallKind : uint8_t {
   Specialisation, ///< runs `callee`
-  Library,        ///< `library`, `componentwise_type` where it works by component on vectors; missing trailing
-                  ///< arguments take the row's defaults
+  Library,        ///< `library`; by component where the call's type is a vector; missing trailing arguments take the
+                  ///< row's defaults. math.max and math.min: any number of arguments, the row is folded from the left
   Construct,      ///< vec2, vec3, vec4, rgb: numbers and vectors strung together, or one number for each component
   Convert,        ///< the argument itself, converted to the call's type (math.floor of an integer, ...)
   ToInteger,      ///< math.floor, math.ceil: the row `library` gives integer and ok; faults IntegerRange where not ok

@@ -123,9 +123,6 @@ void Walker::local(const LocalStat& stat) {
     if (type.kind == Type::Kind::None) {
       context_.unset_locals.insert(&local);
       declare(local, unknown_type(), place, nullptr);
-    } else if (type.kind == Type::Kind::Function && local.is_assigned) {
-      error(Code::FunctionNotKnown, place, {std::string(local.name)});
-      declare(local, unknown_type(), place, nullptr);
     } else {
       declare(local, type, place, given);
     }

@@ -63,6 +63,7 @@ private:
                           const std::vector<Type>& types);
   TypeList method_call(const syntax::MethodCallExpr& expr);
   TypeList construct(const syntax::CallExpr& expr, std::string_view name);
+  TypeList extremum(const syntax::CallExpr& expr, std::string_view name);
   TypeList to_integer(const syntax::CallExpr& expr, std::string_view name);
   TypeList math_type(const syntax::CallExpr& expr);
   TypeList assert_or_error(const syntax::CallExpr& expr, bool is_assert);
@@ -112,6 +113,7 @@ private:
   Context& context_;
   Work& work_;
   unsigned loop_depth_ = 0;
+  unsigned table_depth_ = 0;
   std::vector<const syntax::Block*> blocks_; ///< enclosing ones in this function
   std::vector<size_t> positions_;            ///< of the statement being walked in each of them
   /// Where a label of an enclosing block stands.
