@@ -48,30 +48,43 @@ template <class L> using Bits = Wide<std::conditional_t<is_f32<L>, uint32_t, uin
 
 // Masks ---------------------------------------------------------------------------------------------------------------
 
-/// A truth value a lane: all bits of an integer or none; one lane's is a bool.
+/// A truth value a lane: an integer as wide as a number, true where it is not 0; one lane's is a bool. Combined as
+/// vectors of bits, which is what LLVM wants of masks.
 template <class I, int W> struct LaneMask {
   using Bits = std::conditional_t<W == 1, bool, Wide<I, W>>;
   Bits bits;
 };
 template <class L> using Mask = LaneMask<std::conditional_t<is_f32<L>, int32_t, int64_t>, width_of<L>>;
 
+template <class I, int W> MS_INLINE auto truth(LaneMask<I, W> mask) {
+  if constexpr (W == 1)
+    return mask.bits;
+  else
+    return __builtin_convertvector(mask.bits, Wide<bool, W>);
+}
+template <class I, int W> MS_INLINE LaneMask<I, W> mask_of(Wide<bool, W> truth) {
+  if constexpr (W == 1)
+    return {truth};
+  else
+    return {__builtin_convertvector(truth, Wide<I, W>)};
+}
 template <class I, int W> MS_INLINE LaneMask<I, W> operator&(LaneMask<I, W> a, LaneMask<I, W> b) {
   if constexpr (W == 1)
     return {a.bits && b.bits};
   else
-    return {a.bits & b.bits};
+    return mask_of<I, W>(truth(a) & truth(b));
 }
 template <class I, int W> MS_INLINE LaneMask<I, W> operator|(LaneMask<I, W> a, LaneMask<I, W> b) {
   if constexpr (W == 1)
     return {a.bits || b.bits};
   else
-    return {a.bits | b.bits};
+    return mask_of<I, W>(truth(a) | truth(b));
 }
 template <class I, int W> MS_INLINE LaneMask<I, W> operator!(LaneMask<I, W> a) {
   if constexpr (W == 1)
     return {!a.bits};
   else
-    return {~a.bits};
+    return mask_of<I, W>(~truth(a));
 }
 
 /// The result of comparing lanes of any element type, as a mask of L.
@@ -92,12 +105,12 @@ template <class I, int W> MS_INLINE bool any(LaneMask<I, W> mask) {
 
 /// mask ? a : b, a lane at a time, for numbers and integers of any size.
 template <class I, int W, class V> MS_INLINE V select(LaneMask<I, W> mask, V a, V b) {
-  if constexpr (W == 1)
+  if constexpr (W == 1) {
     return mask.bits ? a : b;
-  else
-    return __builtin_convertvector(mask.bits, Wide<std::conditional_t<sizeof(Scalar<V>) == 8, int64_t, int32_t>, W>)
-               ? a
-               : b;
+  } else {
+    using Condition = Wide<std::conditional_t<sizeof(Scalar<V>) == 8, int64_t, int32_t>, W>;
+    return __builtin_convertvector(mask.bits != Wide<I, W>(I(0)), Condition) ? a : b;
+  }
 }
 
 template <class L> MS_INLINE Mask<L> less(L a, L b) { return to_mask<L>(a < b); }

@@ -36,21 +36,25 @@ template <class L> MS_INLINE L ramp(UInt32<L> hash, L x) {
   return x * madd(convert<L>(convert<Int32<L>>(hash >> UInt32<L>(24u))), 2.0 / 255, constant<L>(-1));
 }
 
-/// One of eight directions: (1, sqrt 2 - 1), either way round, with either signs.
-template <class L> MS_INLINE L ramp(UInt32<L> hash, Vec<2, L> d) {
-  auto swap = to_mask<L>(convert<Int32<L>>(hash << UInt32<L>(2u)) < Int32<L>(0));
-  L u = select(swap, d[1], d[0]), v = select(swap, d[0], d[1]);
-  return madd(flip_sign(v, sign_from<L>(hash << UInt32<L>(1u))), 0x1.a827999fcef32p-2,
-              flip_sign(u, sign_from<L>(hash)));
+/// A bit of the hash as a mask. (Shifts of the hash to the left would be made multiplications by the optimiser.)
+template <class L> MS_INLINE Mask<L> hash_bit(UInt32<L> hash, int bit) {
+  return to_mask<L>((hash & UInt32<L>(uint32_t(1) << bit)) != UInt32<L>(0u));
 }
 
-/// One of a cube's twelve edges: two of the three components, with either signs. Two bits of the hash give the signs,
-/// the next ones, as a signed number, which third of all numbers it lies in.
+/// One of eight directions: (1, sqrt 2 - 1), either way round, with either signs.
+template <class L> MS_INLINE L ramp(UInt32<L> hash, Vec<2, L> d) {
+  auto swap = hash_bit<L>(hash, 29);
+  L u = select(swap, d[1], d[0]), v = select(swap, d[0], d[1]);
+  return madd(select(hash_bit<L>(hash, 30), -v, v), 0x1.a827999fcef32p-2, flip_sign(u, sign_from<L>(hash)));
+}
+
+/// One of a cube's twelve edges: two of the three components, with either signs. The upper bit of the hash and one
+/// further down give the signs, the others which components.
 template <class L> MS_INLINE L ramp(UInt32<L> hash, Vec<3, L> d) {
-  Int32<L> place = convert<Int32<L>>(hash << UInt32<L>(2u));
-  L u = select(to_mask<L>(place < Int32<L>(-0x2aaaaaab)), d[1], d[0]);
-  L v = select(to_mask<L>(place < Int32<L>(0x2aaaaaaa)), d[2], d[1]);
-  return flip_sign(u, sign_from<L>(hash)) + flip_sign(v, sign_from<L>(hash << UInt32<L>(1u)));
+  Int32<L> place = convert<Int32<L>>(hash & UInt32<L>(0x7fffffffu));
+  L u = select(to_mask<L>(place < Int32<L>(0x2aaaaaab)), d[1], d[0]);
+  L v = select(to_mask<L>(place < Int32<L>(0x55555555)), d[2], d[1]);
+  return flip_sign(u, sign_from<L>(hash)) + select(hash_bit<L>(hash, 22), -v, v);
 }
 
 /// In one dimension the corners are the integers and the kernel is (1 - d^2)^4.

@@ -36,21 +36,25 @@ static constexpr PerlinTable kPerlinTable = [] {
   return table;
 }();
 
-/// permutation[i mod 256] in the lowest byte, the following entry in the next.
+extern "C" {
+// In the bitcode: 32 bits from the table at each of W byte offsets (gather.ll.in).
+void moonshade_gather_w4(void* result, const void* table, const void* offsets);
+void moonshade_gather_w8(void* result, const void* table, const void* offsets);
+void moonshade_gather_w16(void* result, const void* table, const void* offsets);
+void moonshade_gather_w32(void* result, const void* table, const void* offsets);
+}
+
+/// permutation[i mod 256] in the lowest byte, the following entry in the next; above, anything.
 template <class U> MS_INLINE U permuted_pair(U i) {
+  constexpr int width = width_of<U>;
   i &= U(255u);
-  auto pair = [](uint32_t at) __attribute__((always_inline)) {
-    return uint32_t(kPerlinTable.entry[at]) | uint32_t(kPerlinTable.entry[at + 1]) << 8;
-  };
-  if constexpr (width_of<U> == 1) {
-    return pair(i);
-  } else {
-    U result;
-#pragma clang loop unroll(full)
-    for (int lane = 0; lane < width_of<U>; ++lane)
-      result[lane] = pair(i[lane]);
-    return result;
-  }
+  U result;
+  if constexpr (width == 1) result = kPerlinTable.entry[i] | U(kPerlinTable.entry[i + 1]) << 8;
+  if constexpr (width == 4) moonshade_gather_w4(&result, &kPerlinTable, &i);
+  if constexpr (width == 8) moonshade_gather_w8(&result, &kPerlinTable, &i);
+  if constexpr (width == 16) moonshade_gather_w16(&result, &kPerlinTable, &i);
+  if constexpr (width == 32) moonshade_gather_w32(&result, &kPerlinTable, &i);
+  return result;
 }
 
 /// The reference's grad: one of twelve edges (four of them twice) by the lower four bits of the hash.

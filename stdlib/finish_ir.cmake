@@ -1,11 +1,18 @@
-# cmake -DINPUT=a.ll -DOUTPUT=b.ll -P strip_target.cmake
+# cmake -DINPUT=a.ll -DOUTPUT=b.ll -DWIDTH=16 -P finish_ir.cmake
 # Takes from the library's IR what ties it to one processor: function attributes for processor, features and vector
 # width, which the code generator sets for the whole program, and module flags. Triple and data layout stay; who links
-# for another machine sets his own on the loaded module.
+# for another machine sets his own on the loaded module. Adds the definition of the gather (gather.ll.in).
+cmake_minimum_required(VERSION 3.25)
 file(READ ${INPUT} text)
 foreach(attribute target-cpu target-features tune-cpu min-legal-vector-width frame-pointer no-trapping-math
                   stack-protector-buffer-size)
   string(REGEX REPLACE " \"${attribute}\"=\"[^\"]*\"" "" text "${text}")
 endforeach()
 string(REGEX REPLACE "\n!llvm.(module.flags|ident) = [^\n]*" "" text "${text}")
+if(WIDTH GREATER 1)
+  string(REGEX REPLACE "\ndeclare void @moonshade_gather_w[^\n]*" "" text "${text}")
+  file(READ ${CMAKE_CURRENT_LIST_DIR}/gather.ll.in gather)
+  string(REPLACE "@WIDTH@" "${WIDTH}" gather "${gather}")
+  string(APPEND text "${gather}")
+endif()
 file(WRITE ${OUTPUT} "${text}")
