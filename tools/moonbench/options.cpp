@@ -55,8 +55,6 @@ ParsedOptions parse_options(int argc, char** argv) {
   CLI::App app("Measures shaders: stock Lua against compiled code.", "moonbench");
   Options options;
   std::string precision = "f32", width = "auto";
-  app.set_help_flag("-h,--help", "Print this help")->group("Reports");
-  app.set_version_flag("--version", version(), "Print the version")->group("Reports");
   app.add_option("SHADER", options.files, "Shaders; without any: the gallery")->option_text("SHADER.lua ...");
   app.add_option("--entry", options.entries, "Only this entry point (repeatable)")
       ->option_text("NAME")
@@ -84,6 +82,8 @@ ParsedOptions parse_options(int argc, char** argv) {
       ->group("What to measure");
   app.add_flag("--json", options.json, "Print an array of objects instead of a table")->group("Reports");
   app.add_option("--plot", options.plot, "Draw a bar chart")->option_text("FILE.svg")->group("Reports");
+  app.set_help_flag("-h,--help", "Print this help")->group("Reports");
+  app.set_version_flag("--version", version(), "Print the version")->group("Reports");
   app.footer(kNotes);
   try {
     app.parse(argc, argv);

@@ -193,14 +193,14 @@ ParsedOptions parse_options(int argc, char** argv) {
   CLI::App app("Compiles and checks Moonshade shaders.", "shaderc");
   Options options;
   Raw raw;
-  app.set_help_flag("-h,--help", "Print this help")->group("Reports");
-  app.set_version_flag("--version", version(), "Print the version")->group("Reports");
   app.add_option("FILE", options.files, "Shaders")->option_text("FILE.lua ...");
   add_output_options(app, options, raw);
   add_run_options(app, options);
   add_compile_options(app, options, raw);
   add_report_options(app, options, raw);
   add_unavailable_options(app, raw);
+  app.set_help_flag("-h,--help", "Print this help")->group("Reports");
+  app.set_version_flag("--version", version(), "Print the version")->group("Reports");
   app.footer(kExamples);
   try {
     app.parse(argc, argv);
