@@ -48,33 +48,38 @@ class Agreement : public testing::TestWithParam<const char*> {};
 
 TEST_P(Agreement, WithStockLua) { expect_agreement(GetParam()); }
 
-INSTANTIATE_TEST_SUITE_P(Expressions, Agreement, testing::Values(
-R"(function f(p, id) return p.x + p.y * p.z - p.x / p.y, -p.x, id + 1, id * id, -id, id - 7 end)",
-R"(function f(p, id) return p.x // p.y, p.x % p.y, p.x ^ p.y, p.x ^ 2, p.x ^ 0.5, p.z ^ 3 end)",
-R"(function f(id, frame) return id // frame, id % frame end)",
-R"(function f(id) return id // 3, id % -5, id // -1, id % -1, 7 // 2, -7 % 3 end)",
-R"(function f(id, frame) return id & frame, id | 12, id ~ frame, ~id, id << 3, id >> frame, id << frame end)",
-R"(function f(id, time) return id / 3, id + 0.5, id * time, id < time, id <= time, id == time, id ~= time, time > id end)",
-R"(function f(p, time) return p.x < p.y, p.x <= p.y, p.x > p.y, p.x >= p.y, p.x == p.y, p.x ~= p.y end)",
-R"(function f(p, n) return p + n, p - 2, 3 * p, p / n, -p, p * n, 1 / p, p ^ 2, p == n, p ~= n, p % n end)",
-R"(function f(p) return p.zyx, p.xy, p.rgb, p[1], p[3], vec2(p.x, 1), vec4(p, 1), vec3(2), rgb(1, 2, 3), vec4(p.xy, p.zx) end)",
-R"(function f(p) return p:length(), length(p), normalize(p), p:dot(vec3(1, 2, 3)), cross(p, vec3(0, 0, 1)) end)",
-R"(function f(p) return mix(p, vec3(1), 0.25), clamp(p, 0, 1), smoothstep(0, 1, p.x), sin(p), max(p.x, p.y) end)",
-R"(function f(p) return noise(p), perlin(p), fbm(p, 3), turbulence(p), hash(p.x), fbm(p.xy, 2, 2.1, 0.4) end)",
-R"(function f(id) return math.max(id, 3, -2), math.min(id, 7), math.abs(id), math.fmod(id, 3), math.ult(id, 9) end)",
-R"(function f(id, frame) return math.fmod(id, frame) end)",
-R"(function f(p) return math.floor(p.x), math.ceil(p.y), math.sqrt(p.z), math.pi, math.maxinteger, math.huge end)",
-R"(function f(id) return math.floor(id), math.mininteger, 0x7fffffffffffffff + 1, 1e308 * 10 end)",
-R"(function f(p, backface) return not backface, backface and p.x < 1, backface or p.x < 1, not (p.x < p.y) end)",
-R"(function f(p) return p.x < 1 and p.y < 1 and p.z < 1 or p.x > 2 and p.y > 2 end)",
-R"(function f(p) return p.x < 1 and 2.0 or 3.0, p.x < 1 and p or vec3(1), p.x < 0 and 1 or p.x < 1 and 2 or 3 end)",
-R"(function f(p) return (p.x < 0 and noise(p) or p.y < 1 and perlin(p)) or 0.5 end)",
-R"(function f(id) return id ~= 0 and 10 // id > 2, id == 0 or 10 % id == 1 end)",
-R"(function f(id) return id ~= 0 and 10 // id or 7 end)",
-R"(function f(p, id) return 1 == 1.0, id == 1, id < 2.5, 2^53 == 2^53 + 1, -0.0, 0x.8p1, 3 | 4 end)"));
+INSTANTIATE_TEST_SUITE_P(
+    Expressions, Agreement,
+    testing::Values(
+        R"(function f(p, id) return p.x + p.y * p.z - p.x / p.y, -p.x, id + 1, id * id, -id, id - 7 end)",
+        R"(function f(p, id) return p.x // p.y, p.x % p.y, p.x ^ p.y, p.x ^ 2, p.x ^ 0.5, p.z ^ 3 end)",
+        R"(function f(id, frame) return id // frame, id % frame end)",
+        R"(function f(id) return id // 3, id % -5, id // -1, id % -1, 7 // 2, -7 % 3 end)",
+        R"(function f(id, frame) return id & frame, id | 12, id ~ frame, ~id, id << 3, id >> frame, id << frame end)",
+        R"(function f(id, time) return id / 3, id + 0.5, id * time, id < time, id <= time, id == time, id ~= time, time > id end)",
+        R"(function f(p, time) return p.x < p.y, p.x <= p.y, p.x > p.y, p.x >= p.y, p.x == p.y, p.x ~= p.y end)",
+        R"(function f(p, n) return p + n, p - 2, 3 * p, p / n, -p, p * n, 1 / p, p ^ 2, p == n, p ~= n, p % n end)",
+        R"(function f(p) return p.zyx, p.xy, p.rgb, p[1], p[3], vec2(p.x, 1), vec4(p, 1), vec3(2), rgb(1, 2, 3), vec4(p.xy, p.zx) end)",
+        R"(function f(p) return p:length(), length(p), normalize(p), p:dot(vec3(1, 2, 3)), cross(p, vec3(0, 0, 1)) end)",
+        R"(function f(p) return mix(p, vec3(1), 0.25), clamp(p, 0, 1), smoothstep(0, 1, p.x), sin(p), max(p.x, p.y) end)",
+        R"(function f(p) return noise(p), perlin(p), fbm(p, 3), turbulence(p), hash(p.x), fbm(p.xy, 2, 2.1, 0.4) end)",
+        R"(function f(id) return math.max(id, 3, -2), math.min(id, 7), math.abs(id), math.fmod(id, 3), math.ult(id, 9) end)",
+        R"(function f(id, frame) return math.fmod(id, frame) end)",
+        R"(function f(p) return math.floor(p.x), math.ceil(p.y), math.sqrt(p.z), math.pi, math.maxinteger, math.huge end)",
+        R"(function f(id) return math.floor(id), math.mininteger, 0x7fffffffffffffff + 1, 1e308 * 10 end)",
+        R"(function f(p, backface) return not backface, backface and p.x < 1, backface or p.x < 1, not (p.x < p.y) end)",
+        R"(function f(p) return p.x < 1 and p.y < 1 and p.z < 1 or p.x > 2 and p.y > 2 end)",
+        R"(function f(p) return p.x < 1 and 2.0 or 3.0, p.x < 1 and p or vec3(1), p.x < 0 and 1 or p.x < 1 and 2 or 3 end)",
+        R"(function f(p) return (p.x < 0 and noise(p)) or p.y < 1 and perlin(p) or 0.5 end)",
+        R"(function f(p, id) return p.x < 4, 3 <= p.y, 1 == p.x, p.x ~= 0, id < 9007199254740993, p.x < 9007199254740993 end)",
+        R"(function f(id) return id ~= 0 and 10 // id > 2, id == 0 or 10 % id == 1 end)",
+        R"(function f(id) return id ~= 0 and 10 // id or 7 end)",
+        R"(function f(p, id) return 1 == 1.0, id == 1, id < 2.5, 2^53 == 2^53 + 1, -0.0, 0x.8p1, 3 | 4 end)"));
 
-INSTANTIATE_TEST_SUITE_P(Statements, Agreement, testing::Values(
-R"(function f(p)
+INSTANTIATE_TEST_SUITE_P(
+    Statements, Agreement,
+    testing::Values(
+        R"(function f(p)
   local a, b = p.x, p.y
   a, b = b, a
   local c
@@ -82,7 +87,7 @@ R"(function f(p)
   do local a = 5.0; c = c + a end
   return a, b, c
 end)",
-R"(function f(p)
+        R"(function f(p)
   local s = 0
   for i = 1, 10 do s = s + i * p.x end
   for i = 10, 1, -3 do s = s - i end
@@ -91,7 +96,7 @@ R"(function f(p)
   for x = 1.0, -1, -0.3 do s = s + x * 0.5 end
   return s
 end)",
-R"(function f(id)
+        R"(function f(id)
   local n = 0
   for i = math.maxinteger - 2, math.maxinteger do n = n + 1 end
   for i = math.mininteger + 1, math.mininteger, -1 do n = n + 10 end
@@ -103,16 +108,16 @@ R"(function f(id)
   for i = 0, 0 / 0 do n = n + 1 end
   return n
 end)",
-R"(function f(frame)
+        R"(function f(frame)
   local n = 0
   local step = frame
   if step > 0 and step < 100 then for i = 1, 20, step do n = n * 3 + i end end
   if step < 0 and step > -100 then for i = 20, -5, step do n = n * 3 + i end end
   return n
 end)",
-R"(function f(p, frame) local s = 0.0 for i = 1, 3, frame do s = s + 1 if i > 100 or i < -100 then break end end return s end)",
-R"(function f(p) local s = 0.0 for x = p.x, p.y, p.z do s = s + x if s > 50 or s < -50 then break end end return s end)",
-R"(function f(p)
+        R"(function f(p, frame) local s = 0.0 for i = 1, 3, frame do s = s + 1 if i > 100 or i < -100 then break end end return s end)",
+        R"(function f(p) local s = 0.0 for x = p.x, p.y, p.z do s = s + x if s > 50 or s < -50 then break end end return s end)",
+        R"(function f(p)
   local s = 0.0
   for i = 1, 20 do
     if i % 2 == 0 then goto continue end
@@ -128,7 +133,7 @@ R"(function f(p)
   ::done::
   return s
 end)",
-R"(function f(p)
+        R"(function f(p)
   local n, x = 0, p.x
   while x < 100 do
     x = x * 2 + 1
@@ -141,7 +146,7 @@ R"(function f(p)
   until last or n > 40
   while true do n = n + 1 if n > 50 then return n, x end end
 end)",
-R"(function f(p)
+        R"(function f(p)
   for i = 1, 10 do
     for j = 1, 10 do
       if i * j > p.x + 20 then return i, j end
@@ -149,8 +154,8 @@ R"(function f(p)
   end
   return 0, 0
 end)",
-R"(function f(p) local i = 5 for i = 1, 3 do i = i + p.x end return i end)",
-R"(function f(p)
+        R"(function f(p) local i = 5 for i = 1, 3 do i = i + p.x end return i end)",
+        R"(function f(p)
   local total = 0.0
   for i = 1, 4 do
     local x = p.x
@@ -159,14 +164,16 @@ R"(function f(p)
   end
   return total
 end)",
-R"(function f(p) if p.x < 0 then return 1 end if p.x == 0 then return 2.5 end do return p.y end end)"));
+        R"(function f(p) if p.x < 0 then return 1 end if p.x == 0 then return 2.5 end do return p.y end end)"));
 
-INSTANTIATE_TEST_SUITE_P(Functions, Agreement, testing::Values(
-R"(local function two(x) return x, x * x end
+INSTANTIATE_TEST_SUITE_P(
+    Functions, Agreement,
+    testing::Values(
+        R"(local function two(x) return x, x * x end
 function f(p) local a, b = two(p.x) local c, d = (two(p.y)) , 1 return a, b, c, d, two(p.z) end)",
-R"(local function pair(a, b) return b, a end
+        R"(local function pair(a, b) return b, a end
 function f(p) return pair(pair(p.x, p.y)) end)",
-R"(function f(p)
+        R"(function f(p)
   local count = 0
   local function bump(by) count = count + by return count end
   local a = bump(1)
@@ -175,18 +182,13 @@ R"(function f(p)
   twice(100)
   return a, b, count
 end)",
-R"(local function apply(g, x) return g(x) + 1 end
-function f(p)
-  local scale = p.y
-  return apply(function(x) return x * scale end, p.x), apply(noise, p), apply(math.abs, p.z)
-end)",
-R"(local function poly(x) return x * 2 + 1 end
+        R"(local function poly(x) return x * 2 + 1 end
 function f(p, id) return poly(p.x), poly(id), poly(p) end)",
-R"(local function sign(x) if x < 0 then return -1 elseif x > 0 then return 1 end return 0 end
+        R"(local function sign(x) if x < 0 then return -1 elseif x > 0 then return 1 end return 0 end
 function f(p) return sign(p.x) * 0.5, sign(p.y) end)",
-R"(local function late(x, y) x = x + 0.5 return x * y end
+        R"(local function late(x, y) x = x + 0.5 return x * y end
 function f(id) return late(id, 2), late(1, id) end)",
-R"(local OCTAVES <const> = 4
+        R"(local OCTAVES <const> = 4
 local COPPER <const> = rgb(0.72, 0.43, 0.20)
 local gain = 0.5
 local total = 0.0
@@ -194,23 +196,23 @@ for i = 1, OCTAVES do total = total + gain ^ i end
 if total > 1 then total = 1.0 else total = total + 0.125 end
 K = 3
 function f(p) local s = 0.0 for i = 1, OCTAVES do s = s + noise(p * i) * gain end return s, COPPER * total, K end)",
-R"(local scale = param("scale", 4.0, { min = 0, max = 10 })
+        R"(local scale = param("scale", 4.0, { min = 0, max = 10 })
 local n = param("n", 3)
 local tint = param("tint", rgb(1, 0.5, 0.25))
 local flag = param("flag", true)
 local scaled = param("other", 2.5) * 2
 function f(p) local s = 0 for i = 1, n do s = s + i * scale end return s, tint * p, flag and 1 or 2, scaled end)",
-R"(function color(p) return vec3(1) end
+        R"(function color(p) return vec3(1) end
 function roughness(p) return 1 end
 function f(p) return roughness(p) + color(p).x end)"));
 
-INSTANTIATE_TEST_SUITE_P(Faults, Agreement, testing::Values(
-R"(function f(p) assert(p.x > 0, "x must be positive") return p.x end)",
-R"(function f(p) if p.x < 0 then error("negative") end return p.x end)",
-R"(function f(p) if p.x < 0 then error("negative") else return p.x end end)",
-R"(local function deep(x) assert(x < 3) return x end
+INSTANTIATE_TEST_SUITE_P(Faults, Agreement,
+                         testing::Values(R"(function f(p) assert(p.x > 0, "x must be positive") return p.x end)",
+                                         R"(function f(p) if p.x < 0 then error("negative") end return p.x end)",
+                                         R"(function f(p) if p.x < 0 then error("negative") else return p.x end end)",
+                                         R"(local function deep(x) assert(x < 3) return x end
 function f(p) local s = 0.0 for i = 1, 3 do s = s + deep(p.x) end return s end)",
-R"(function f(id) local a = id // 2 local b = 10 // a return 1 end)"));
+                                         R"(function f(id) local a = id // 2 local b = 10 // a return 1 end)"));
 
 std::string text_of(const std::string& source, bool optimized = false, Precision precision = Precision::F64) {
   const Checked checked = check(source);
@@ -243,9 +245,8 @@ TEST(Build, FaultsHaveTheirKindsAndMessages) {
     const Checked checked = check(source);
     EXPECT_THAT(checked.errors, IsEmpty());
     const Module module = build(checked.program, {.step_limit = 1000});
-    const Outcome outcome =
-        Interpreter(module).run("f", std::vector<Value>(checked.program.info.find_entry("f")->inputs.size(),
-                                                        Value::of(0.0)));
+    const Outcome outcome = Interpreter(module).run(
+        "f", std::vector<Value>(checked.program.info.find_entry("f")->inputs.size(), Value::of(0.0)));
     return std::string(fault_name(outcome.fault)) + (outcome.message.empty() ? "" : ": ") + outcome.message;
   };
   EXPECT_EQ(fault_of("function f(time) assert(time > 1, 'too early') return time end"), "assert: too early");
@@ -268,12 +269,39 @@ local twice = scale * 2
 function f(p) return p * twice end
 )"),
             R"(
+global @0 twice: number
+global @1 scale: number, parameter 0
+entry f = f
+
+init top_level() {
+  var $0.scale: number
+  %0: number = load_global @1 scale
+  store $0.scale, %0
+  %1: number = load $0.scale
+  %2: integer = const.i 2
+  %3: number = const.n 2
+  %4: number = mul %1, %3
+  store_global @0 twice, %4
+}
+
+function f(p: vec3) -> vec3 {
+  var $0.p: vec3
+  step
+  %0: vec3 = argument 0
+  store $0.p, %0
+  %1: vec3 = load $0.p
+  %2: number = load_global @0 twice
+  %3: vec3 = construct %2
+  %4: vec3 = mul %1, %3
+  return %4
+}
 )");
 }
 
 TEST(Build, LongChainsOfElseifAreNotNested) {
   std::string source = "function f(id) local x if id == 0 then x = 1";
-  for (int i = 1; i < 3000; ++i) source += " elseif id == " + std::to_string(i) + " then x = " + std::to_string(i + 1);
+  for (int i = 1; i < 3000; ++i)
+    source += " elseif id == " + std::to_string(i) + " then x = " + std::to_string(i + 1);
   source += " else x = 0 end return x end";
   const Checked checked = check(source);
   ASSERT_THAT(checked.errors, IsEmpty());

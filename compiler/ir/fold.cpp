@@ -106,6 +106,7 @@ private:
       break;
     default:
       if (info(at(id).op).shape == OpShape::Value) {
+        if (at(id).op == Op::CallLibrary) compare_with_number(id, result);
         if (const ValueId same = equal_value(id); same != kNone) {
           replacements_.replace(id, same);
           return true;
@@ -118,6 +119,28 @@ private:
       walk(inner);
     result.push_back(id);
     return falls_through(function_, Block{{id}});
+  }
+
+  /// op.lt, op.le and op.eq compare an integer with a number exactly. A constant that float holds too is as exact as a
+  /// number, and a plain comparison costs a fraction.
+  void compare_with_number(ValueId id, std::vector<ValueId>& result) {
+    const std::string_view name = at(id).library->name;
+    if (name != "op.lt" && name != "op.le" && name != "op.eq") return;
+    constexpr int64_t kExact = int64_t{1} << 24;
+    for (const size_t i : {0u, 1u}) {
+      const std::optional<int64_t> value = integer(at(id).operands[i]);
+      if (!value || *value < -kExact || *value > kExact) continue;
+      Instruction constant{};
+      make_number(constant, static_cast<double>(*value));
+      constant.span = at(id).span;
+      function_.instructions.push_back(std::move(constant)); // moves the others
+      result.push_back(static_cast<ValueId>(function_.instructions.size() - 1));
+      Instruction& comparison = at(id);
+      comparison.op = name == "op.lt" ? Op::Lt : name == "op.le" ? Op::Le : Op::Eq;
+      comparison.library = nullptr;
+      comparison.operands[i] = result.back();
+      return;
+    }
   }
 
   Instruction& at(ValueId id) { return function_.instructions[id]; }
@@ -206,6 +229,7 @@ private:
 
   void fold_in_place(Instruction& instruction) const {
     if (instruction.operands.size() == 1) return fold_unary(instruction);
+    if (instruction.op == Op::Select && instruction.type == ValueType::Boolean) return fold_select(instruction);
     if (instruction.operands.size() != 2) return;
     const Instruction& a = operand(instruction, 0);
     const Instruction& b = operand(instruction, 1);
@@ -233,6 +257,18 @@ private:
       const auto wide = compare(instruction.op, a.number, b.number);
       const auto narrow = compare(instruction.op, static_cast<float>(a.number), static_cast<float>(b.number));
       if (wide && wide == narrow) return make_boolean(instruction, *wide);
+    }
+  }
+
+  /// What `and` and `or` become where both sides are evaluated.
+  void fold_select(Instruction& instruction) const {
+    const ValueId c = instruction.operands[0], a = instruction.operands[1], b = instruction.operands[2];
+    if (b == c || boolean(b) == false) {
+      instruction.op = Op::And;
+      instruction.operands = {c, a};
+    } else if (a == c || boolean(a) == true) {
+      instruction.op = Op::Or;
+      instruction.operands = {c, b};
     }
   }
 

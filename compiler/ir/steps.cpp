@@ -2,10 +2,10 @@
 // of each function is worked out from its loops and calls; functions that are reached only from entries (and init)
 // whose bound is within the limit lose their `step`s.
 //
-// A loop's bound is known where it has the shape that `build` gives a numeric `for` with constant bounds: a counter
-// that is stored a constant just before the loop and counter + constant at the end of its body, and an `if` in the body
-// that breaks on a condition over the counter and constants alone. The loop is then simply run on its counter, in float
-// and in double where that is a number.
+// A loop's bound is known where a variable counts its iterations: it is stored a constant just before the loop, once in
+// the body itself, as what it was plus a constant, and nowhere else; and an `if` in the body breaks on a condition over
+// it and constants (which may stand beside others: `while n < 256 and x < 4`). All numeric `for`s with constant bounds
+// are of this shape. The loop is then simply run on its counter, in float and in double where that is a number.
 #include "compiler/ir/passes.h"
 #include "compiler/ir/walk.h"
 
@@ -23,12 +23,15 @@ uint64_t saturating_mul(uint64_t a, uint64_t b) {
   return __builtin_mul_overflow(a, b, &product) ? kUnbounded : product;
 }
 
-/// A counter and where it is read and stored in a loop.
+/// Iterations run for one module, all loops together. Longer loops keep counting their steps: that costs them little,
+/// and compilation must not take long because a loop does.
+constexpr uint64_t kBudget = uint64_t{1} << 17;
+constexpr unsigned kMaxBreaks = 4; ///< of one loop that are tried, for each counter
+
+/// A variable that counts the iterations of a loop.
 struct Counter {
-  VariableId variable;
-  ValueId start = kNone;      ///< constant
-  ValueId next = kNone;       ///< stored at the end of the body
-  ValueId condition = kNone;  ///< of the break
+  ValueId start;              ///< constant
+  ValueId next;               ///< what the body stores
   std::vector<ValueId> loads; ///< in the body itself
 };
 
@@ -66,6 +69,8 @@ public:
       break;
     }
     if (depth > 8 || instruction.operands.empty() || instruction.operands.size() > 2) return {};
+    if (instruction.type == ValueType::Boolean && (instruction.op == Op::And || instruction.op == Op::Or))
+      return logical(instruction, depth);
     const std::optional<Scalar<T>> a = evaluate(instruction.operands[0], depth + 1);
     const std::optional<Scalar<T>> b =
         instruction.operands.size() < 2 ? std::optional(Scalar<T>{}) : evaluate(instruction.operands[1], depth + 1);
@@ -73,7 +78,29 @@ public:
     return apply(instruction, function_.instructions[instruction.operands[0]].type, *a, *b);
   }
 
+  /// Whether the counter alone may decide the condition, or a side of it.
+  bool decides(ValueId condition, unsigned depth = 0) const {
+    const Instruction& instruction = function_.instructions[condition];
+    if (depth > 8) return false;
+    if (instruction.type == ValueType::Boolean &&
+        (instruction.op == Op::And || instruction.op == Op::Or || instruction.op == Op::Not))
+      return std::ranges::any_of(instruction.operands, [&](ValueId operand) { return decides(operand, depth + 1); });
+    return evaluate(condition, depth).has_value();
+  }
+
 private:
+  /// One side may decide alone.
+  std::optional<Scalar<T>> logical(const Instruction& instruction, unsigned depth) const {
+    const bool decisive = instruction.op == Op::Or;
+    bool known = true;
+    for (const ValueId operand : instruction.operands) {
+      const std::optional<Scalar<T>> side = evaluate(operand, depth + 1);
+      known = known && side;
+      if (side && side->boolean == decisive) return side;
+    }
+    return known ? std::optional(Scalar<T>{.boolean = !decisive}) : std::nullopt;
+  }
+
   static std::optional<Scalar<T>> apply(const Instruction& instruction, ValueType type, const Scalar<T>& a,
                                         const Scalar<T>& b) {
     Scalar<T> result;
@@ -114,11 +141,17 @@ private:
 
 class StepBounds {
 public:
-  explicit StepBounds(const Module& module)
-      : module_(module), bounds_(module.functions.size()), budget_(saturating_mul(2, module.step_limit)) {}
+  explicit StepBounds(const Module& module) : module_(module), bounds_(module.functions.size()) {}
 
   uint64_t of_function(FunctionId id) {
-    if (!bounds_[id]) bounds_[id] = of_block(module_.functions[id], module_.functions[id].body);
+    if (bounds_[id]) return *bounds_[id];
+    const Function& function = module_.functions[id];
+    // The callees first: the counts of stores below are those of one function at a time.
+    for_each_instruction(function, [&](ValueId value) {
+      if (function.instructions[value].op == Op::Call) of_function(function.instructions[value].index);
+    });
+    stores_ = count_stores(function);
+    bounds_[id] = of_block(function, function.body);
     return *bounds_[id];
   }
 
@@ -154,56 +187,75 @@ private:
     return sum;
   }
 
-  uint64_t trip_count(const Function& function, const Block& around, size_t position) {
-    const std::optional<Counter> counter = find_counter(function, around, position);
-    if (!counter) return kUnbounded;
-    if (function.instructions[counter->start].type == ValueType::Integer) return run<double>(function, *counter);
-    return std::max(run<double>(function, *counter), run<float>(function, *counter));
+  /// Stores to each variable; what a call may store counts as many.
+  static std::vector<unsigned> count_stores(const Function& function) {
+    std::vector<unsigned> stores(function.variables.size());
+    for (VariableId i = 0; i < function.captures; ++i)
+      stores[i] = 3;
+    for_each_instruction(function, [&](ValueId id) {
+      const Instruction& instruction = function.instructions[id];
+      if (instruction.op == Op::Store) ++stores[instruction.index];
+      for (const VariableId variable : instruction.variables)
+        stores[variable] += 3;
+    });
+    return stores;
   }
 
-  static std::optional<Counter> find_counter(const Function& function, const Block& around, size_t position) {
+  /// The least bound that a counter and a break of the loop at `position` give.
+  uint64_t trip_count(const Function& function, const Block& around, size_t position) {
     const Instruction& loop = function.instructions[around.instructions[position]];
-    const Block& body = loop.blocks[0];
-    if (body.instructions.empty()) return {};
-    const Instruction& last = function.instructions[body.instructions.back()];
-    if (last.op != Op::Store || last.index < function.captures) return {};
-    Counter counter{.variable = last.index, .next = last.operands[0], .loads = {}};
-    if (!is_stored_twice(function, counter.variable)) return {};
-    for (size_t i = 0; i < position; ++i) {
+    std::vector<ValueId> conditions;
+    for (const ValueId id : loop.blocks[0].instructions) {
+      const Instruction& instruction = function.instructions[id];
+      if (instruction.op != Op::If || instruction.blocks[0].instructions.size() != 1) continue;
+      const Instruction& leave = function.instructions[instruction.blocks[0].instructions[0]];
+      if (leave.op == Op::Break && leave.index == loop.index && conditions.size() < kMaxBreaks)
+        conditions.push_back(instruction.operands[0]);
+    }
+    uint64_t least = kUnbounded;
+    for (const ValueId id : loop.blocks[0].instructions) {
+      const Instruction& store = function.instructions[id];
+      if (store.op != Op::Store || stores_[store.index] != 2 || conditions.empty()) continue;
+      const std::optional<Counter> counter = find_counter(function, around, position, store);
+      if (!counter) continue;
+      for (const ValueId condition : conditions)
+        least = std::min(least, run(function, *counter, condition));
+    }
+    return least;
+  }
+
+  static std::optional<Counter> find_counter(const Function& function, const Block& around, size_t position,
+                                             const Instruction& store) {
+    Counter counter{.start = kNone, .next = store.operands[0], .loads = {}};
+    for (size_t i = position; i-- > 0 && counter.start == kNone;) {
       const Instruction& before = function.instructions[around.instructions[i]];
-      if (before.op == Op::Store && before.index == counter.variable) counter.start = before.operands[0];
+      if (before.op == Op::Store && before.index == store.index) counter.start = before.operands[0];
     }
     if (counter.start == kNone) return {};
     const Op start = function.instructions[counter.start].op;
     if (start != Op::ConstInteger && start != Op::ConstNumber) return {};
+    const Block& body = function.instructions[around.instructions[position]].blocks[0];
     for (const ValueId id : body.instructions) {
       const Instruction& instruction = function.instructions[id];
-      if (instruction.op == Op::Load && instruction.index == counter.variable) counter.loads.push_back(id);
-      if (instruction.op != Op::If || instruction.blocks[0].instructions.size() != 1) continue;
-      const Instruction& leave = function.instructions[instruction.blocks[0].instructions[0]];
-      if (leave.op == Op::Break && leave.index == loop.index) counter.condition = instruction.operands[0];
+      if (instruction.op == Op::Store && instruction.index == store.index) break; // later loads give the next value
+      if (instruction.op == Op::Load && instruction.index == store.index) counter.loads.push_back(id);
     }
-    return counter.condition == kNone ? std::nullopt : std::optional(counter);
+    return counter;
   }
 
-  /// Once before the loop and once at its end, and no call can store it.
-  static bool is_stored_twice(const Function& function, VariableId variable) {
-    unsigned stores = 0;
-    for_each_instruction(function, [&](ValueId id) {
-      const Instruction& instruction = function.instructions[id];
-      if (instruction.op == Op::Store && instruction.index == variable) ++stores;
-      if (std::ranges::find(instruction.variables, variable) != instruction.variables.end()) stores += 2;
-    });
-    return stores == 2;
+  uint64_t run(const Function& function, const Counter& counter, ValueId condition) {
+    if (function.instructions[counter.start].type == ValueType::Integer)
+      return run_in<double>(function, counter, condition);
+    return std::max(run_in<double>(function, counter, condition), run_in<float>(function, counter, condition));
   }
 
-  template <class T> uint64_t run(const Function& function, const Counter& counter) {
+  template <class T> uint64_t run_in(const Function& function, const Counter& counter, ValueId condition) {
     CounterMachine<T> machine(function, counter.loads);
     machine.set(*machine.evaluate(counter.start));
+    if (!machine.decides(condition)) return kUnbounded;
     for (uint64_t trips = 1; budget_ != 0; ++trips, --budget_) {
-      const auto leaves = machine.evaluate(counter.condition);
-      if (!leaves) return kUnbounded;
-      if (leaves->boolean) return trips;
+      const auto leaves = machine.evaluate(condition);
+      if (leaves && leaves->boolean) return trips;
       const auto next = machine.evaluate(counter.next);
       if (!next) return kUnbounded;
       machine.set(*next);
@@ -213,7 +265,8 @@ private:
 
   const Module& module_;
   std::vector<std::optional<uint64_t>> bounds_;
-  uint64_t budget_; ///< iterations that may still be run: hostile files have many long loops
+  std::vector<unsigned> stores_; ///< by variable of the function at hand
+  uint64_t budget_ = kBudget;
 };
 
 void mark_reached(const Module& module, FunctionId id, std::vector<bool>& reached) {
