@@ -65,8 +65,9 @@ template <class L> MS_INLINE UInt32<L> lattice(L i) {
 
 inline constexpr uint32_t kLatticePrimes[4] = {0x9e3779b1u, 0x85ebca77u, 0xc2b2ae3du, 0x27d4eb2fu};
 
-/// The last step of a lattice point's hash, from the exclusive or of its coordinates u times their primes. Only the
-/// upper bits are good.
-template <class U> MS_INLINE U lattice_hash(U combined) { return combined * 0x2c1b3c6du; }
+/// The last step of a lattice point's hash, from the exclusive or of its coordinates u times their primes: the square,
+/// of which the upper half is good. Nearer to independent than a product with a constant, which keeps the differences
+/// along a row.
+template <class U> MS_INLINE U lattice_hash(U combined) { return combined * combined; }
 
 } // namespace moonshade::stdlib

@@ -318,7 +318,7 @@ void check_override(lua_State* state, const char* name) {
   if (expected.kind == Kind::Integer) same = value.kind == Kind::Integer;
   if (!same) {
     Message message;
-    message.add("parameter '%s' is a %s, not a %s", name, lua_type_name(state, 2), lua_type_name(state, -1));
+    message.add("parameter '%s' takes %s, not %s", name, lua_type_name(state, 2), lua_type_name(state, -1));
     message.raise(state);
   }
   if (expected.kind == Kind::Number && value.kind == Kind::Integer) {

@@ -62,8 +62,8 @@ template <class L> MS_INLINE L noise(L x) {
   L i = floor(x), one = constant<L>(1);
   L d0 = x - i, d1 = d0 - one;
   UInt32<L> u = lattice(i) * kLatticePrimes[0];
-  L sum = kernel(nmadd(d0, d0, one), ramp(lattice_hash(u), d0), constant<L>(0));
-  sum = kernel(nmadd(d1, d1, one), ramp(lattice_hash(u + kLatticePrimes[0]), d1), sum);
+  L sum = kernel(nmadd(d0, d0, one), ramp(mix_bits(u), d0), constant<L>(0));
+  sum = kernel(nmadd(d1, d1, one), ramp(mix_bits(u + kLatticePrimes[0]), d1), sum);
   return sum * constant<L>(3.16); // greatest sum 0.31640625, at 1/2
 }
 
