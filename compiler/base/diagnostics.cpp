@@ -99,19 +99,16 @@ std::vector<const Diagnostic*> Diagnostics::sorted() const {
   return result;
 }
 
-bool print_diagnostics(const Diagnostics& diagnostics, const SourceSet& sources, std::ostream& out,
+void print_diagnostics(const Diagnostics& diagnostics, const SourceSet& sources, std::ostream& out,
                        const DiagnosticPrintOptions& options) {
   switch (options.format) {
   case DiagnosticFormat::Text:
-    print_text(diagnostics, sources, out, options.colour);
-    return true;
+    return print_text(diagnostics, sources, out, options.colour);
   case DiagnosticFormat::Json:
-    print_json(diagnostics, sources, out);
-    return true;
+    return print_json(diagnostics, sources, out);
   case DiagnosticFormat::Sarif:
-    return false;
+    return print_sarif(diagnostics, sources, out);
   }
-  return false;
 }
 
 } // namespace moonshade

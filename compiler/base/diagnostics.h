@@ -8,6 +8,7 @@
 #include <deque>
 #include <initializer_list>
 #include <iosfwd>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -90,12 +91,31 @@ struct DiagnosticPrintOptions {
 };
 
 /// Prints all, sorted. Text: `FILE:LINE:COLUMN: error: message [code]`, the source line and its underline, then the
-/// notes; nothing where there is nothing to say. JSON: one array. False where the format is not available yet (SARIF).
-bool print_diagnostics(const Diagnostics& diagnostics, const SourceSet& sources, std::ostream& out,
+/// notes; nothing where there is nothing to say. JSON: one array. SARIF: one log of one run.
+void print_diagnostics(const Diagnostics& diagnostics, const SourceSet& sources, std::ostream& out,
                        const DiagnosticPrintOptions& options = {});
 
 /// The forms one by one.
 void print_text(const Diagnostics& diagnostics, const SourceSet& sources, std::ostream& out, bool colour = false);
 void print_json(const Diagnostics& diagnostics, const SourceSet& sources, std::ostream& out);
+void print_sarif(const Diagnostics& diagnostics, const SourceSet& sources, std::ostream& out);
+
+/// SARIF 2.1.0 for the diagnostics of any number of compilations: one log of one run.
+class SarifLog {
+public:
+  SarifLog();
+  ~SarifLog();
+  SarifLog(SarifLog&&) noexcept;
+  SarifLog& operator=(SarifLog&&) noexcept;
+
+  /// Takes the facts over; neither argument is kept.
+  void add(const Diagnostics& diagnostics, const SourceSet& sources);
+  bool empty() const;
+  void print(std::ostream& out) const;
+
+private:
+  struct Content;
+  std::unique_ptr<Content> content_;
+};
 
 } // namespace moonshade
