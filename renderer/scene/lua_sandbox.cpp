@@ -40,7 +40,12 @@ Budget& budget_of(lua_State* L) {
 
 void count_instructions(lua_State* L, lua_Debug*) {
   Budget& budget = budget_of(L);
-  if (budget.instructions_left < kHookInterval) luaL_error(L, "the scene runs too long (instruction limit)");
+  if (budget.instructions_left < kHookInterval) {
+    luaL_where(L, 0); // the function that runs, not the one that called it
+    lua_pushliteral(L, "the scene runs too long (instruction limit)");
+    lua_concat(L, 2);
+    lua_error(L);
+  }
   budget.instructions_left -= kHookInterval;
 }
 
@@ -124,7 +129,7 @@ function pairs(t)
     if k ~= nil then return k, t[k] end
   end
 end
-next = nil
+_G.next = nil
 )";
 
 void remove(lua_State* L, const char* library, std::span<const char* const> names) {
@@ -169,7 +174,7 @@ int set_up(lua_State* L) {
   lua_pushinteger(L, 0);
   lua_call(L, 1, 0);
   lua_settop(L, 0);
-  if (luaL_loadstring(L, kSortedPairs) != LUA_OK) return lua_error(L);
+  if (luaL_loadbufferx(L, kSortedPairs, sizeof kSortedPairs - 1, "=pairs", "t") != LUA_OK) return lua_error(L);
   lua_call(L, 0, 0);
   lua_register(L, "print", print_line);
   for (const char* name : {"vec2", "vec3", "rgb"})

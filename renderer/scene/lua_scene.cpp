@@ -237,7 +237,7 @@ void SceneBuilder::area_light(SceneFields& fields) {
   m.values[size_t(Slot::Color)] = Vec3(0);
   m.values[size_t(Slot::Ior)] = Vec3(1);
   m.values[size_t(Slot::Emission)] = fields.color("color", Vec3(1)) * float(fields.number("intensity", 1, 0));
-  m.emits_outward_only = true;
+  m.emits_outward_only = !fields.boolean("two_sided", true);
   Vec3 center = fields.vector("center", Vec3(0));
   Vec3 u = fields.vector("u", Vec3(1, 0, 0)), v = fields.vector("v", Vec3(0, 0, 1));
   if (is_black(glm::cross(u, v))) fields.fail("'u' and 'v' span no area");

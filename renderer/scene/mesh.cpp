@@ -109,19 +109,36 @@ void triangulate(std::span<const Vec3> polygon, Triangles& triangles) {
 
 namespace {
 
-/// For each position the corners (3 * triangle + corner) that meet there.
+/// For each position the first one that lies at the same place: exporters repeat positions along seams.
+std::vector<uint32_t> welded(const std::vector<Vec3>& positions) {
+  std::vector<uint32_t> order(positions.size()), first(positions.size());
+  std::iota(order.begin(), order.end(), 0u);
+  auto key = [&](uint32_t i) { return std::array{positions[i].x, positions[i].y, positions[i].z}; };
+  // NaN compares with nothing: such positions, which no triangle uses, stay out of the order.
+  std::erase_if(order, [&](uint32_t i) { return !is_finite(positions[i]); });
+  std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
+    auto ka = key(a), kb = key(b);
+    return ka != kb ? ka < kb : a < b;
+  });
+  for (size_t i = 0; i < order.size(); ++i)
+    first[order[i]] = i > 0 && key(order[i]) == key(order[i - 1]) ? first[order[i - 1]] : order[i];
+  return first;
+}
+
+/// For each (welded) position the corners (3 * triangle + corner) that meet there.
 struct CornersOfPositions {
   std::vector<uint32_t> start, corners;
 
   explicit CornersOfPositions(const Mesh& mesh) : start(mesh.positions.size() + 1), corners(3 * mesh.triangles.size()) {
+    std::vector<uint32_t> place = welded(mesh.positions);
     for (const Mesh::Corners& t : mesh.triangles)
       for (uint32_t p : t)
-        ++start[p + 1];
+        ++start[place[p] + 1];
     std::partial_sum(start.begin(), start.end(), start.begin());
     std::vector<uint32_t> next(start.begin(), start.end() - 1);
     for (uint32_t t = 0; t < mesh.triangles.size(); ++t)
       for (uint32_t c = 0; c < 3; ++c)
-        corners[next[mesh.triangles[t][c]]++] = 3 * t + c;
+        corners[next[place[mesh.triangles[t][c]]]++] = 3 * t + c;
   }
 };
 

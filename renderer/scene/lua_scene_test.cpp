@@ -1,0 +1,167 @@
+#include "renderer/scene/lua_scene.h"
+
+#include "renderer/scene/lua_sandbox.h"
+#include "renderer/scene/read_scene.h"
+#include "renderer/test_support.h"
+
+#include <gmock/gmock.h>
+
+namespace moonshade::renderer {
+namespace {
+
+using ::testing::HasSubstr;
+using testing::TemporaryFolder;
+
+class LuaScene : public ::testing::Test {
+protected:
+  SceneReading parse(const std::string& text) {
+    Folders folders = folder_.folders();
+    return parse_lua_scene("s.lua", text, folders_.value_or(folders));
+  }
+  std::string error(const std::string& text) { return parse(text).error; }
+  TemporaryFolder folder_;
+  std::optional<Folders> folders_;
+};
+
+TEST_F(LuaScene, ReadsEveryKindOfThing) {
+  SceneReading reading = parse(R"(
+    camera{ from = {1, 2, 3}, to = {0, 0, 1}, fov = 30 }
+    render{ width = 320, height = 200, samples = 5, seed = 9, depth = 3, integrator = "whitted", tonemap = "filmic", exposure = 1.5 }
+    local red = material{ name = "red", color = {1, 0, 0}, roughness = 0.2 }
+    sphere{ center = {1, 0, 0}, radius = 2, material = red }
+    plane{ material = "red" }
+    box{ size = 2, translate = {0, 1, 0} }
+    rectangle{ center = {0, 3, 0} }
+    light{ type = "sun", direction = {0, 2, 0}, color = 3 }
+    light{ type = "point", position = {0, 5, 0}, intensity = 2 }
+    light{ type = "area", center = {0, 4, 0}, color = {1, 2, 3} })");
+  ASSERT_TRUE(reading.scene) << reading.error;
+  const Scene& scene = *reading.scene;
+  EXPECT_EQ(scene.camera.from, Vec3(1, 2, 3));
+  EXPECT_EQ(scene.settings.width, 320);
+  EXPECT_EQ(scene.settings.integrator, IntegratorKind::Whitted);
+  EXPECT_EQ(scene.settings.tonemap, Tonemap::Filmic);
+  ASSERT_EQ(scene.objects.size(), 5u);
+  EXPECT_EQ(scene.objects[0].materials, std::vector<uint32_t>{1});
+  EXPECT_EQ(scene.objects[1].materials, std::vector<uint32_t>{1});
+  EXPECT_EQ(Vec3(scene.objects[0].to_world[3]), Vec3(1, 0, 0));
+  EXPECT_EQ(Vec3(scene.objects[2].to_world[3]), Vec3(0, 1, 0));
+  ASSERT_EQ(scene.lights.size(), 2u);
+  EXPECT_EQ(scene.lights[0].direction, Vec3(0, 1, 0));
+  EXPECT_EQ(scene.lights[0].color, Vec3(3));
+  EXPECT_EQ(scene.materials.back().values[size_t(Slot::Emission)], Vec3(1, 2, 3));
+}
+
+TEST_F(LuaScene, NamesLineAndNearestNameOfWrongFields) {
+  EXPECT_EQ(error("\n\nsphere{ radus = 1 }"), "s.lua:3: sphere: unknown field 'radus'; did you mean 'radius'?");
+  EXPECT_EQ(error("sphere{ radius = 'big' }"), "s.lua:1: sphere: 'radius' is a number");
+  EXPECT_EQ(error("sphere{ radius = -1 }"), "s.lua:1: sphere: 'radius' lies between 1e-20 and 1e+30");
+  EXPECT_EQ(error("sphere{ center = {1, 2} }"), "s.lua:1: sphere: 'center' is a list of 3 numbers");
+  EXPECT_EQ(error("sphere{ center = {1, 2, 0/0} }"), "s.lua:1: sphere: 'center' is a list of 3 numbers");
+  EXPECT_EQ(error("sphere{}\nlight{ type = 'sum' }"), "s.lua:2: light: unknown type 'sum'; did you mean 'sun'? (known: sun, sky, point, area)");
+  EXPECT_EQ(error("sphere{}\nlight{}"), "s.lua:2: light: the field 'type' is missing");
+  EXPECT_EQ(error("render{ width = 1.5 }"), "s.lua:1: render: 'width' is an integer");
+  EXPECT_EQ(error("sphere{ material = 'gold' }"), "s.lua:1: sphere: there is no material 'gold'");
+  EXPECT_EQ(error("sphere{ material = {} }"), "s.lua:1: sphere: 'material' is what material{} gave, or its name");
+  EXPECT_EQ(error("material{ name = 'a' }\nmaterial{ name = 'a' }"), "s.lua:2: material: there is a material 'a' already");
+  EXPECT_EQ(error("material{ transmission = 1 }"), "s.lua:1: material: 'transmission' is not available yet");
+  EXPECT_EQ(error("material{ color = {1, -1, 0} }"), "s.lua:1: material: 'color' is not negative");
+  EXPECT_THAT(error("sphere{ 1, 2 }"), HasSubstr("s.lua:1: sphere: takes named fields only: name, center, radius"));
+  EXPECT_THAT(error("sphere(1)"), HasSubstr("s.lua:1: 'sphere' takes one table"));
+  EXPECT_THAT(error("sphre{}"), HasSubstr("did you mean 'sphere'?"));
+  EXPECT_EQ(error("camera{ from = {0,0,0}, to = {0,0,0} }"), "s.lua:1: camera: 'from' and 'to' are the same point");
+  EXPECT_EQ(error("camera{ from = {0,1,0}, to = {0,0,0} }"), "s.lua:1: camera: 'up' points along the view");
+  EXPECT_EQ(error("camera{}"), "s.lua:1: camera: the field 'from' is missing");
+  EXPECT_EQ(error(""), "s.lua: the scene has no objects");
+  EXPECT_THAT(error("sphere{ radius = function() end }"), HasSubstr("s.lua:1: sphere: holds a function"));
+  EXPECT_THAT(error("x = = 1"), HasSubstr("s.lua:1: "));
+}
+
+TEST_F(LuaScene, OpensOnlyFilesOfItsFolders) {
+  folder_.write("in.lua", "");
+  folder_.write("sub/deep.lua", "");
+  Folders folders = folder_.folders();
+  auto error = [&](const std::string& text) { return parse_lua_scene(folder_ / "s.lua", text, folders).error; };
+  EXPECT_EQ(error("sphere{ material = material{ shader = 'in.lua', height = 'sub/deep.lua' } }"), "");
+  EXPECT_EQ(error("sphere{ material = material{ shader = 'sub/../in.lua' } }"), "");
+  EXPECT_THAT(error("material{ shader = '../in.lua' }"), HasSubstr("s.lua:1: material: 'shader': '../in.lua' lies outside the folders"));
+  EXPECT_THAT(error("material{ color = '/etc/passwd' }"), HasSubstr("lies outside the folders"));
+  EXPECT_THAT(error("obj{ file = 'none.obj' }"), HasSubstr("s.lua:1: obj: 'file': there is no file 'none.obj'"));
+}
+
+TEST_F(LuaScene, TellsWhereAModelIsWrong) {
+  folder_.write("bad.obj", "v 0 0 0\nf 1 2 3\n");
+  SceneReading reading = parse_lua_scene(folder_ / "s.lua", "obj{ file = 'bad.obj' }", folder_.folders());
+  EXPECT_THAT(reading.error, HasSubstr("s.lua:1: obj: "));
+  EXPECT_THAT(reading.error, HasSubstr("bad.obj:2: the face names vertex 2"));
+}
+
+TEST_F(LuaScene, HasNoDangerousFunctions) {
+  for (const char* name : {"io", "os", "debug", "package", "require", "load", "loadfile", "dofile", "loadstring", "coroutine",
+                           "collectgarbage", "setmetatable", "getmetatable", "pcall", "string.gsub", "string.dump", "table.move"})
+    EXPECT_EQ(error("assert(" + std::string(name) + " == nil) sphere{}"), "") << name;
+}
+
+TEST_F(LuaScene, EndsEndlessAndHungryScenes) {
+  SandboxLimits limits;
+  limits.instructions = 1'000'000;
+  limits.memory_bytes = 4 << 20;
+  limits.calls = 100;
+  std::string_view functions[] = {"sphere"};
+  auto error = [&](const char* text) { return run_scene_file("s.lua", text, functions, {}, limits).error; };
+  EXPECT_THAT(error("while true do end"), HasSubstr("s.lua:1: the scene runs too long"));
+  EXPECT_THAT(error("local t = {} for i = 1, 1e9 do t[i] = i end"), HasSubstr("not enough memory"));
+  EXPECT_THAT(error("local s = ('x'):rep(1e9)"), HasSubstr("not enough memory"));
+  limits.memory_bytes = 256 << 20;
+  limits.instructions = 100'000'000;
+  EXPECT_THAT(error("local function f() return f() + 1 end f()"), HasSubstr("s.lua:1: stack overflow"));
+  EXPECT_THAT(error("for i = 1, 200 do sphere{} end"), HasSubstr("describes too many things"));
+  EXPECT_THAT(error("local t = {} t.t = t sphere{ t }"), HasSubstr("nested too deeply"));
+  EXPECT_THAT(error("error{}"), HasSubstr("s.lua: "));
+}
+
+TEST_F(LuaScene, IsTheSameEveryTime) {
+  const char* text = R"(
+    local t = {} for i = 1, 50 do t["k" .. i] = i end
+    for k, v in pairs(t) do sphere{ center = {v, math.random(), 0}, radius = 0.1 } end)";
+  SceneReading first = parse(text), second = parse(text);
+  ASSERT_TRUE(first.scene && second.scene) << first.error;
+  const Scene &a = *first.scene, &b = *second.scene;
+  for (size_t i = 0; i < 50; ++i) EXPECT_EQ(a.objects[i].to_world, b.objects[i].to_world);
+}
+
+TEST_F(LuaScene, RemembersFieldsAsTheyWereAtTheCall) {
+  SceneReading reading = parse("local t = { radius = 0.5 } for i = 1, 3 do t.center = {i, 0, 0} sphere(t) end");
+  ASSERT_TRUE(reading.scene) << reading.error;
+  EXPECT_EQ(Vec3(reading.scene->objects[0].to_world[3]), Vec3(1, 0, 0));
+  EXPECT_EQ(Vec3(reading.scene->objects[2].to_world[3]), Vec3(3, 0, 0));
+}
+
+TEST_F(LuaScene, GetsCameraAndDaylightWhereItHasNone) {
+  SceneReading reading = parse("sphere{ center = {0, 10, 0} }");
+  ASSERT_TRUE(reading.scene) << reading.error;
+  EXPECT_EQ(reading.scene->camera.to, Vec3(0, 10, 0));
+  EXPECT_EQ(reading.scene->lights.size(), 2u);
+  EXPECT_EQ(parse("sphere{ material = material{ emission = 1 } }").scene->lights.size(), 0u);
+}
+
+TEST_F(LuaScene, PlacesByScaleThenRotationThenTranslation) {
+  SceneReading reading = parse("box{ scale = {2, 1, 1}, rotate = {0, 0, 90}, translate = {10, 0, 0} }");
+  ASSERT_TRUE(reading.scene) << reading.error;
+  Vec4 corner = reading.scene->objects[0].to_world * Vec4(0.5f, 0.5f, 0.5f, 1);
+  EXPECT_NEAR(corner.x, 9.5f, 1e-5f);
+  EXPECT_NEAR(corner.y, 1, 1e-5f);
+}
+
+TEST(ReadScene, ChoosesTheReaderByTheEnding) {
+  TemporaryFolder folder;
+  std::string obj = folder.write("M.OBJ", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  SceneReading bare = read_scene(obj);
+  ASSERT_TRUE(bare.scene) << bare.error;
+  EXPECT_EQ(bare.scene->lights.size(), 2u);
+  EXPECT_THAT(read_scene(folder.write("s.txt", "")).error, HasSubstr("neither a Lua scene"));
+  EXPECT_THAT(read_scene(folder / "none.lua").error, HasSubstr("none.lua: No such file"));
+}
+
+} // namespace
+} // namespace moonshade::renderer
