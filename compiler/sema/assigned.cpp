@@ -111,7 +111,7 @@ private:
   void call(uint32_t id, Span span) {
     const auto found = work_.callees.find(id);
     if (found == work_.callees.end()) return;
-    const Work& callee = *found->second;
+    const Work& callee = *found->second.work;
     for (const Requirement& requirement : callee.requires_assigned)
       require(requirement.variable, requirement.name, requirement.place, &span);
     for (const void* variable : callee.assigns_always)
@@ -217,7 +217,7 @@ private:
     if (fact == work_.spec->expressions.end() || stat.call->kind != ExprKind::Call) return;
     const auto callee = work_.callees.find(stat.call->id);
     const bool ends = callee != work_.callees.end()
-                          ? callee->second->never_returns
+                          ? callee->second.work->never_returns
                           : fact->second.call == CallKind::Error && fact->second.type.kind == Type::Kind::None;
     if (ends) state_ = unreachable();
   }

@@ -100,7 +100,7 @@ TypeList Walker::call_function(const CallExpr& expr, const Function& function) {
     results.open = true;
   }
   if (context_.report && callee->spec != nullptr) {
-    work_.callees[expr.id] = callee;
+    work_.callees[expr.id] = {callee, expr.span};
     ExpressionFact fact;
     fact.type = results.at(0);
     fact.results = results.types;

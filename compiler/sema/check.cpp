@@ -37,10 +37,11 @@ Program check(const syntax::Chunk& chunk, const Options& options, Diagnostics& d
   Work* top = context.find_or_make(chunk.main, nullptr, {}, chunk.main->span);
   std::vector<EntryPlan> plans = plan_entries(context, options.entries);
 
-  std::vector<Work*> chosen = {top}, others;
+  std::vector<Work*> chosen = {top}, others, entry_works;
   for (EntryPlan& plan : plans) {
     plan.work = context.find_or_make(plan.global->function, top, plan.inputs, plan.global->definition);
     if (plan.work == nullptr) return program;
+    entry_works.push_back(plan.work);
     (plan.is_selected ? chosen : others).push_back(plan.work);
   }
   std::vector<Work*> all = chosen;
@@ -56,6 +57,7 @@ Program check(const syntax::Chunk& chunk, const Options& options, Diagnostics& d
     check_assigned_for_entry(context, *top, *plan.work);
   }
   check_uncalled(context);
+  check_memory(context, entry_works, *top);
   return program;
 }
 

@@ -29,6 +29,7 @@ Work* Context::find_or_make(const syntax::Function* function, Work* parent, std:
   work->function = function;
   work->parent = parent;
   work->arguments = key.arguments;
+  in_order.push_back(work.get());
   return works.emplace(std::move(key), std::move(work)).first->second.get();
 }
 
@@ -67,7 +68,8 @@ void close_specialisation(Context& context, Work& work) {
   for (const auto& [local, fact] : spec.locals)
     if (local->function != work.function && local->function != context.chunk.main && fact.type.is_value())
       capture(local);
-  for (const auto& [id, callee] : work.callees) {
+  for (const auto& [id, link] : work.callees) {
+    const Work* callee = link.work;
     for (const syntax::Local* local : callee->outer_writes)
       if (local->function != work.function) work.outer_writes.insert(local);
     for (const syntax::Local* local : callee->captures) {

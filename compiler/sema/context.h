@@ -58,8 +58,12 @@ struct Work {
   // What the reporting walk finds.
   std::unique_ptr<Specialisation> owned; ///< until the program takes it
   Specialisation* spec = nullptr;
-  std::unordered_map<uint32_t, Work*> callees; ///< by id of the call expression
-  std::vector<const syntax::Local*> captures;  ///< as Specialisation::captures
+  struct Callee {
+    Work* work;
+    Span call;
+  };
+  std::unordered_map<uint32_t, Callee> callees; ///< by id of the call expression
+  std::vector<const syntax::Local*> captures;   ///< as Specialisation::captures
   /// Of it and its callees.
   std::vector<Requirement> requires_assigned;
   /// Locals of enclosing functions that it assigns whenever it returns; of the top level all its variables.
@@ -67,6 +71,12 @@ struct Work {
   bool never_returns = false; ///< every path ends in error() or an endless loop
   /// Locals of enclosing functions (not the top level) that it or its callees assign.
   std::set<const syntax::Local*> outer_writes;
+  /// Statements that assign locals of the top level.
+  struct TopLevelWrite {
+    const syntax::Local* local;
+    Span place;
+  };
+  std::vector<TopLevelWrite> top_level_writes;
 };
 
 struct WorkKey {
@@ -86,6 +96,7 @@ struct Context {
   Globals globals;
 
   std::unordered_map<WorkKey, std::unique_ptr<Work>, WorkKeyHash> works;
+  std::vector<Work*> in_order; ///< of being made: hash tables have no order of their own
   /// A reporting walk of each function, for those nested in it; null: not walked yet.
   std::vector<Work*> walked;
   std::unordered_map<const syntax::Local*, uint32_t> slots; ///< of captured top-level locals
@@ -138,6 +149,8 @@ std::string signature(const Work& work);
 void check_assigned(Context& context, Work& work);
 /// At the end: the top level must have assigned what entry points read.
 void check_assigned_for_entry(Context& context, const Work& top, const Work& entry);
+/// Writes to the top level's locals (memory.cpp), once all bodies were walked.
+void check_memory(Context& context, const std::vector<Work*>& entries, const Work& top);
 /// Order of evaluation and the sets of outer variables read and assigned (order.cpp).
 void check_order(Context& context, Work& work);
 

@@ -216,7 +216,7 @@ Type Walker::global_name(const NameExpr& expr) {
     fact.type = library_type(expr.name);
     return record(expr, std::move(fact));
   }
-  refuse_name(expr.span, expr.name);
+  if (!context_.globals.assigned_inside.contains(expr.name)) refuse_name(expr.span, expr.name);
   return unknown_type();
 }
 
@@ -362,7 +362,7 @@ Type Walker::table(const TableExpr& expr) {
 }
 
 Type Walker::function_expression(const Function& function) {
-  if (function.is_vararg) error(Code::Varargs, function.span);
+  if (function.is_vararg) error(Code::Varargs, function.vararg_span);
   return record(function, function_type(&function));
 }
 

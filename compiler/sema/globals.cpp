@@ -19,7 +19,11 @@ public:
 
 private:
   void define(const NameExpr& target, const Function* function, Span span, bool certain) {
-    if (!target.is_global() || target.environment != nullptr || function_depth_ != 0) return;
+    if (!target.is_global() || target.environment != nullptr) return;
+    if (function_depth_ != 0) {
+      globals_.assigned_inside.insert(target.name);
+      return;
+    }
     const auto [found, is_new] = globals_.by_name.try_emplace(target.name);
     Global& global = found->second;
     if (is_new) {

@@ -5,7 +5,7 @@
 
 #include "compiler/sema/types.h"
 
-#include <map>
+#include <set>
 #include <string_view>
 #include <unordered_map>
 #include <vector>
@@ -34,6 +34,8 @@ struct Globals {
   std::unordered_map<std::string_view, Global> by_name;
   /// Those that stand for functions, in the order of their definitions.
   std::vector<Global*> functions;
+  /// Names that only functions assign, which is refused there.
+  std::set<std::string_view> assigned_inside;
 
   Global* find(std::string_view name) {
     const auto found = by_name.find(name);

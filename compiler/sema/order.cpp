@@ -65,9 +65,9 @@ private:
     Effects effects = siblings(parts);
     const auto callee = work_.callees.find(expr.id);
     if (callee == work_.callees.end()) return effects;
-    for (const Local* local : callee->second->captures)
+    for (const Local* local : callee->second.work->captures)
       effects.uses.insert({local, expr.span});
-    for (const Local* local : callee->second->outer_writes)
+    for (const Local* local : callee->second.work->outer_writes)
       effects.writes.insert({local, expr.span});
     return effects;
   }
@@ -138,7 +138,7 @@ private:
 
 void check_order(Context& context, Work& work) {
   const bool any =
-      std::ranges::any_of(work.callees, [](const auto& callee) { return !callee.second->outer_writes.empty(); });
+      std::ranges::any_of(work.callees, [](const auto& callee) { return !callee.second.work->outer_writes.empty(); });
   if (any) OrderCheck(context, work).block(*work.function->body);
 }
 

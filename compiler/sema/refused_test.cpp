@@ -47,7 +47,7 @@ INSTANTIATE_TEST_SUITE_P(
                 {"recursion"}},
         Refusal{"local function f(x) return $f(x) end", {"recursion"}},
         Refusal{"local function f(x) if x < 0 then return $f(x + 1) end return f(x - 1) end", {"recursion"}},
-        Refusal{"local $function f(...) return 1 end", {"varargs"}}, Refusal{"local x = $...", {"varargs"}},
+        Refusal{"local function f($...) return 1 end", {"varargs"}}, Refusal{"local x = $...", {"varargs"}},
         Refusal{"local n = $select(1, 2)", {"varargs"}},
         Refusal{"$setmetatable(${}, 1)", {"metatables", "not-available-yet"}},
         Refusal{"local v = vec3(1)\nfunction $v:f() return 1 end", {"method-definition"}},
@@ -73,6 +73,10 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"function height(p) $function g() end return 1 end", {"global-assignment"}},
         Refusal{"local count = 0\nfunction height(p)\n  $count = count + 1\n  return count\nend",
                 {"shader-has-no-memory"}},
+        Refusal{"local count = 0\nlocal function add() $count = count + 1 end\nadd()\n"
+                "function height(p) return count end",
+                {"not-available-yet"}},
+        Refusal{"function height(p) $x = 1 return x + y() end\nfunction y() return 1 end", {"global-assignment"}},
         Refusal{"$math.pi = 3", {"library-assignment"}}, Refusal{"$function math.f() end", {"library-assignment"}}));
 
 INSTANTIATE_TEST_SUITE_P(
@@ -213,6 +217,13 @@ TEST(Refusals, NameTheChainOfSpecialisations) {
   ASSERT_THAT(checked.errors(), testing::ElementsAre("1:32 bitwise-number"));
   EXPECT_THAT(checked.text, testing::HasSubstr("in inner(number), called here"));
   EXPECT_THAT(checked.text, testing::HasSubstr("in outer(number), called here"));
+}
+
+TEST(Refusals, ShowThePathToAWriteOfTheTopLevel) {
+  const Checked checked("local last = 0.0\nlocal function note(x) last = x end\nnote(1.5)\n"
+                        "function height(p)\n  note(p.x)\n  return last\nend");
+  ASSERT_THAT(checked.errors(), testing::ElementsAre("2:24 shader-has-no-memory"));
+  EXPECT_THAT(checked.text, testing::HasSubstr("test.lua:5:3: note: in note(number), called here"));
 }
 
 TEST(Refusals, ProposeTheNearestName) {

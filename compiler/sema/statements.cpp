@@ -12,7 +12,7 @@ using Code = DiagnosticCode;
 void Walker::function_body() {
   const Function& function = *work_.function;
   work_.has_open_return = false;
-  if (function.is_vararg && !at_top_level()) error(Code::Varargs, function.span);
+  if (function.is_vararg && !at_top_level()) error(Code::Varargs, function.vararg_span);
   for (size_t i = 0; i < function.params.size(); ++i)
     declare(*function.params[i], i < work_.arguments.size() ? work_.arguments[i] : unknown_type(),
             function.params[i]->span, nullptr);
@@ -65,7 +65,7 @@ void Walker::statement(const Stat& stat) {
                   [&](const GenericForStat& node) { generic_for(node); },
                   [&](const FunctionStat& node) { define_function(node); },
                   [&](const LocalFunctionStat& node) {
-                    if (node.function->is_vararg) error(Code::Varargs, node.function->span);
+                    if (node.function->is_vararg) error(Code::Varargs, node.function->vararg_span);
                     declare(*node.local, function_type(node.function), node.local->span, nullptr);
                   },
                   [&](const ReturnStat& node) { return_values(node); },
@@ -168,7 +168,7 @@ void Walker::assign_name(const AssignStat& stat, const NameExpr& target, const T
   if (target.local != nullptr) {
     const Local& local = *target.local;
     if (local.function == context_.chunk.main && !at_top_level()) {
-      error(Code::NoMemory, stat.span, {text}).note(Code::NoteDeclaredHere, local.span, {text});
+      if (context_.report) work_.top_level_writes.push_back({&local, stat.span});
       return;
     }
     if (type.kind == Type::Kind::Function || variable_of(local).type.kind == Type::Kind::Function) {
@@ -256,11 +256,11 @@ void Walker::define_function(const FunctionStat& stat) {
     }
     return;
   }
-  if (stat.function->is_vararg) error(Code::Varargs, stat.function->span);
+  if (stat.function->is_vararg) error(Code::Varargs, stat.function->vararg_span);
   const std::string text(name->name);
   if (name->local != nullptr) {
     if (name->local->function == context_.chunk.main && !at_top_level()) {
-      error(Code::NoMemory, stat.span, {text}).note(Code::NoteDeclaredHere, name->local->span, {text});
+      if (context_.report) work_.top_level_writes.push_back({name->local, stat.span});
     } else {
       error(Code::FunctionNotKnown, stat.span, {text});
     }

@@ -128,6 +128,8 @@ struct Function : ExprOf<ExprKind::Function> {
   /// With the hidden `self` first for a method.
   std::span<Local* const> params;
   bool is_vararg = false;
+  /// The `...` among the parameters; of no place where there is none (the chunk).
+  Span vararg_span;
   bool is_method = false;
   Block* body = nullptr;
   /// The enclosing function; null for the chunk.

@@ -303,6 +303,7 @@ std::span<Local* const> Parser::parameters(Function& function, const Name* self)
   const Span opening = token_.span;
   if (expect(TokenKind::LeftParen) && !accept(TokenKind::RightParen)) {
     do {
+      if (at(TokenKind::Dots)) function.vararg_span = token_.span;
       function.is_vararg = accept(TokenKind::Dots);
       if (!function.is_vararg) params.push_back(make_local(expect_name(), LocalKind::Parameter));
     } while (!function.is_vararg && accept(TokenKind::Comma));

@@ -3,6 +3,6 @@ function height(p)
   local t <const> = function(...) return select("#", ...) end
   return p.x
 end
--- error: 3:21 varargs
+-- error: 3:30 varargs
 -- error: 3:42 varargs
 -- error: 3:54 varargs

@@ -4,5 +4,5 @@ end
 function height(p)
   return f(p.x)
 end
--- error: 1:7 varargs
+-- error: 1:18 varargs
 -- error: 2:10 varargs
