@@ -26,7 +26,7 @@ template <class I, int W> struct Memory<LaneMask<I, W>> {
     if constexpr (W == 1)
       *static_cast<Bytes*>(to) = value.bits;
     else
-      *static_cast<Bytes*>(to) = __builtin_convertvector(truth(value), Bytes);
+      *static_cast<Bytes*>(to) = __builtin_convertvector(__builtin_convertvector(value.bits, Wide<bool, W>), Bytes);
   }
 };
 

@@ -56,35 +56,28 @@ template <class I, int W> struct LaneMask {
 };
 template <class L> using Mask = LaneMask<std::conditional_t<is_f32<L>, int32_t, int64_t>, width_of<L>>;
 
-template <class I, int W> MS_INLINE auto truth(LaneMask<I, W> mask) {
-  if constexpr (W == 1)
-    return mask.bits;
-  else
-    return __builtin_convertvector(mask.bits, Wide<bool, W>);
-}
-template <class I, int W> MS_INLINE LaneMask<I, W> mask_of(Wide<bool, W> truth) {
-  if constexpr (W == 1)
-    return {truth};
-  else
-    return {__builtin_convertvector(truth, Wide<I, W>)};
-}
+// Vectors of bits only within an expression: as arguments and results they would pass through memory as bytes.
 template <class I, int W> MS_INLINE LaneMask<I, W> operator&(LaneMask<I, W> a, LaneMask<I, W> b) {
+  using B = Wide<bool, W>;
   if constexpr (W == 1)
     return {a.bits && b.bits};
   else
-    return mask_of<I, W>(truth(a) & truth(b));
+    return {
+        __builtin_convertvector(__builtin_convertvector(a.bits, B) & __builtin_convertvector(b.bits, B), Wide<I, W>)};
 }
 template <class I, int W> MS_INLINE LaneMask<I, W> operator|(LaneMask<I, W> a, LaneMask<I, W> b) {
+  using B = Wide<bool, W>;
   if constexpr (W == 1)
     return {a.bits || b.bits};
   else
-    return mask_of<I, W>(truth(a) | truth(b));
+    return {
+        __builtin_convertvector(__builtin_convertvector(a.bits, B) | __builtin_convertvector(b.bits, B), Wide<I, W>)};
 }
 template <class I, int W> MS_INLINE LaneMask<I, W> operator!(LaneMask<I, W> a) {
   if constexpr (W == 1)
     return {!a.bits};
   else
-    return mask_of<I, W>(~truth(a));
+    return {__builtin_convertvector(~__builtin_convertvector(a.bits, Wide<bool, W>), Wide<I, W>)};
 }
 
 /// The result of comparing lanes of any element type, as a mask of L.

@@ -10,6 +10,10 @@ namespace moonshade::stdlib {
 template <int N, class L> struct Vec {
   L c[N];
 
+  /// Not trivial, so that calls pass vectors by reference: calling conventions would pack components of small ones into
+  /// registers, and the packing would stay in the bitcode.
+  MS_INLINE constexpr ~Vec() {}
+
   MS_INLINE const L& operator[](int i) const { return c[i]; }
   MS_INLINE L& operator[](int i) { return c[i]; }
 };
