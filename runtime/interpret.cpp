@@ -21,13 +21,13 @@ std::string without_prologue(std::string text) {
   return text;
 }
 
-std::string counted_text(const std::string& name, const std::string& text) {
+std::string counted_text(const std::string& name, const std::string& text, CountedSteps steps) {
   SourceSet sources;
   Arena arena;
   Diagnostics diagnostics;
   const FileId file = sources.add(name, text);
   const syntax::Chunk* chunk = syntax::parse(sources, file, arena, diagnostics);
-  return with_counted_steps(*chunk, sources.text(file));
+  return with_counted_steps(*chunk, sources.text(file), steps);
 }
 
 /// Shading happens in the default floating-point environment, whatever the host's is.
@@ -156,9 +156,10 @@ Instantiation interpret(const CheckedShader& shader, const std::map<std::string,
   InterpretSource source;
   source.name = shader.sources().name(0);
   source.text = without_prologue(std::string(shader.sources().text(FileId{0})));
-  source.loaded = options.count_steps ? counted_text(source.name, source.text) : source.text;
+  const CountedSteps steps = options.count_steps ? CountedSteps::All : CountedSteps::Loops;
+  const bool unguarded = !options.count_steps && options.step_limit == 0;
+  source.loaded = unguarded ? source.text : counted_text(source.name, source.text, steps);
   source.info = shader.info();
-  source.count_steps = options.count_steps;
   source.step_limit = options.step_limit;
   for (const auto& [name, value] : parameters) {
     const ParameterInfo* parameter = nullptr;

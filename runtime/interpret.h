@@ -13,7 +13,7 @@ namespace moonshade {
 
 struct InterpretOptions {
   /// Count steps exactly as compiled code does and fault at the limit; costs time. Off: only a coarse guard against
-  /// endless loops.
+  /// endless loops, for which calls of functions do not count.
   bool count_steps = true;
   /// 0, and count_steps off: no guard at all, for measurements of shaders that are known to end.
   uint64_t step_limit = 1'000'000;

@@ -20,7 +20,6 @@ struct InterpretState::Record {
   uint32_t line = 0;
   char message[400] = "";
   uint64_t steps_left = 0;
-  uint64_t hooks_left = 0;
 
   void clear() {
     code = FaultCode::None;
@@ -32,10 +31,6 @@ struct InterpretState::Record {
 namespace {
 
 using Record = InterpretState::Record;
-
-/// Without counted steps, instructions of Lua's machine that stand for a step at least, and those between two looks.
-constexpr uint64_t kInstructionsPerStep = 200;
-constexpr int kInstructionsPerHook = 100'000;
 
 /// Raised in place of a message once the Record says what happened.
 constexpr char kRecorded = 0;
@@ -99,11 +94,6 @@ int count_step(lua_State* lua) {
   if (record.steps_left == 0) return raise_fault(lua, FaultCode::StepLimit, "");
   --record.steps_left;
   return 0;
-}
-
-void watch_instructions(lua_State* lua, lua_Debug*) {
-  Record& record = record_of(lua);
-  if (record.hooks_left-- == 0) raise_fault(lua, FaultCode::StepLimit, "");
 }
 
 // ---- errors of Lua's own -------------------------------------------------------------------------------------------
@@ -228,11 +218,7 @@ std::unique_ptr<InterpretState> InterpretState::open(const InterpretSource& sour
   return state->load(error) ? std::move(state) : nullptr;
 }
 
-void InterpretState::start_counting() {
-  record_->steps_left = source_.step_limit;
-  const uint64_t hooks = source_.step_limit / kInstructionsPerHook * kInstructionsPerStep;
-  record_->hooks_left = hooks + kInstructionsPerStep;
-}
+void InterpretState::start_counting() { record_->steps_left = source_.step_limit; }
 
 bool InterpretState::load(std::string& error) {
   lua_ = luaL_newstate();
@@ -265,8 +251,6 @@ bool InterpretState::load(std::string& error) {
   });
   lua_pushlightuserdata(lua_, const_cast<InterpretSource*>(&source_));
   start_counting();
-  if (!source_.count_steps && source_.step_limit != 0)
-    lua_sethook(lua_, watch_instructions, LUA_MASKCOUNT, kInstructionsPerHook);
   if (protected_call(lua_, 1, LUA_MULTRET) == LUA_OK) return lua_checkstack(lua_, 200);
   const InterpretFault fault = last_fault();
   error = source_.name + ":" + std::to_string(fault.line) + ": fault at the top level: " + fault_name(fault.code);

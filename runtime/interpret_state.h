@@ -20,7 +20,6 @@ struct InterpretSource {
   std::string loaded; ///< what Lua is given: the text, with counted steps where they are to be counted
   ShaderInfo info;
   std::map<std::string, Constant> parameters; ///< overrides, checked
-  bool count_steps = true;
   uint64_t step_limit = 0;
 };
 

@@ -15,9 +15,9 @@ constexpr std::string_view kStep = "(\"\")();";
 
 class Insertions {
 public:
-  void add_functions(const Chunk& chunk) {
+  void add_functions(const Chunk& chunk, CountedSteps steps) {
     for (const Function* function : chunk.functions) {
-      if (function != chunk.main) add_body(*function->body, function->end_span.begin);
+      if (function != chunk.main && steps == CountedSteps::All) add_body(*function->body, function->end_span.begin);
       add_loops(*function->body);
     }
   }
@@ -72,9 +72,9 @@ private:
 
 } // namespace
 
-std::string with_counted_steps(const Chunk& chunk, std::string_view text) {
+std::string with_counted_steps(const Chunk& chunk, std::string_view text, CountedSteps steps) {
   Insertions insertions;
-  insertions.add_functions(chunk);
+  insertions.add_functions(chunk, steps);
   return insertions.apply(text);
 }
 

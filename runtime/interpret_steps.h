@@ -3,14 +3,20 @@
 
 #include "compiler/syntax/ast.h"
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 
 namespace moonshade {
 
-/// The text of `chunk` with a call of the empty string, `("")();`, at the start of each function body and each loop
+enum class CountedSteps : uint8_t {
+  All,   ///< loop iterations and calls of functions: the steps of compiled code
+  Loops, ///< loop iterations only: enough to end every shader, and free of cost where there is no loop
+};
+
+/// The text of `chunk` with a call of the empty string, `("")();`, at the start of each loop body and each function
 /// body: the metatable of strings makes it the step function. No name can collide with it, and it needs neither a local
 /// nor an upvalue, of which a function has only so many.
-std::string with_counted_steps(const syntax::Chunk& chunk, std::string_view text);
+std::string with_counted_steps(const syntax::Chunk& chunk, std::string_view text, CountedSteps steps);
 
 } // namespace moonshade

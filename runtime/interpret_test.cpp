@@ -16,14 +16,14 @@ namespace {
 
 // ---- steps ---------------------------------------------------------------------------------------------------------
 
-std::string counted(const std::string& text) {
+std::string counted(const std::string& text, CountedSteps steps = CountedSteps::All) {
   SourceSet sources;
   Arena arena;
   Diagnostics diagnostics;
   const FileId file = sources.add("test.lua", text);
   const syntax::Chunk* chunk = syntax::parse(sources, file, arena, diagnostics);
   EXPECT_FALSE(diagnostics.has_errors()) << text;
-  return with_counted_steps(*chunk, text);
+  return with_counted_steps(*chunk, text, steps);
 }
 
 TEST(CountedSteps, StandAtTheBeginningOfBodies) {
@@ -40,6 +40,11 @@ TEST(CountedSteps, StandAtTheBeginningOfBodies) {
 TEST(CountedSteps, ReachFunctionsAndLoopsInsideOthers) {
   EXPECT_EQ(counted("if a then repeat local f = function() while b do end end until c end"),
             "if a then repeat(\"\")(); local f = function() (\"\")();while b do (\"\")();end end until c end");
+}
+
+TEST(CountedSteps, LeaveCallsOutWhereOnlyLoopsCount) {
+  EXPECT_EQ(counted("local f = function() while b do end end", CountedSteps::Loops),
+            "local f = function() while b do (\"\")();end end");
 }
 
 TEST(CountedSteps, LeaveStringsCommentsAndLinesAlone) {

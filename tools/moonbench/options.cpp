@@ -30,14 +30,13 @@ Examples:
   moonbench --plot=speed.svg
 )";
 
-/// The shaders of the gallery: files there that are no scenes or makers of models declare entry points themselves, so
-/// all are taken and those that are not shaders say so by their diagnostics.
+/// The shaders of the gallery: its Lua files that are no scenes and make no models.
 std::vector<std::string> gallery() {
   std::vector<std::string> files;
   std::error_code error;
   for (const auto& entry : std::filesystem::directory_iterator(MOONSHADE_GALLERY, error)) {
     const std::string stem = entry.path().stem().string();
-    if (entry.path().extension() != ".lua" || stem.starts_with("make_") || stem.ends_with("_scene")) continue;
+    if (entry.path().extension() != ".lua" || stem.starts_with("make_") || stem.ends_with(".scene")) continue;
     files.push_back(entry.path().string());
   }
   std::sort(files.begin(), files.end());

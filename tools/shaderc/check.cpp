@@ -30,12 +30,15 @@ void Reporter::add(const Diagnostics& diagnostics, const SourceSet& sources) {
   if (diagnostics.empty()) return;
   if (options_.diagnostics == DiagnosticFormat::Text)
     return print_text(diagnostics, sources, std::cerr, options_.colour);
+  if (options_.diagnostics == DiagnosticFormat::Sarif) return sarif_.add(diagnostics, sources);
   std::ostringstream text;
   print_json(diagnostics, sources, text);
   json_.push_back(text.str());
 }
 
 void Reporter::finish() {
+  if (!sarif_.empty()) sarif_.print(std::cerr);
+  sarif_ = {};
   if (json_.empty()) return;
   nlohmann::ordered_json all = nlohmann::ordered_json::array();
   for (const std::string& text : json_)

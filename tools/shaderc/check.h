@@ -9,7 +9,7 @@
 
 namespace moonshade::shaderc {
 
-/// Prints diagnostics of several files in one form; JSON is one array for all of them, at the end.
+/// Prints diagnostics of several files in one form; JSON is one array for all of them, SARIF one log, at the end.
 class Reporter {
 public:
   explicit Reporter(const Options& options) : options_(options) {}
@@ -20,6 +20,7 @@ public:
 private:
   const Options& options_;
   std::vector<std::string> json_; // one array a file
+  SarifLog sarif_;
 };
 
 /// The file, checked, its diagnostics reported. Null where it could not be read (which is reported, too).

@@ -112,7 +112,6 @@ void add_unavailable_options(CLI::App& app, Raw& raw) {
 std::string unavailable(const CLI::App& app, const Raw& raw) {
   for (const char* name : {"-I", "--remarks", "--cache-dir", "--no-cache", "--bake"})
     if (app.count(name) != 0) return name;
-  if (raw.diagnostics == "sarif") return "--diagnostics=sarif";
   if (raw.emit == "header") return "--emit=header";
   return "";
 }
@@ -124,6 +123,12 @@ std::optional<Stage> stage_of(const std::string& name) {
   if (name == "asm") return Stage::Assembly;
   if (name == "obj") return Stage::Object;
   return std::nullopt;
+}
+
+DiagnosticFormat format_of(const std::string& name) {
+  if (name == "json") return DiagnosticFormat::Json;
+  if (name == "sarif") return DiagnosticFormat::Sarif;
+  return DiagnosticFormat::Text;
 }
 
 /// `--input p=1,2,3 time=0`: further inputs behind the first arrive among the files.
@@ -168,7 +173,7 @@ void settle(Options& options, const Raw& raw) {
   options.compile.precision = raw.precision == "f64" ? Precision::F64 : Precision::F32;
   options.compile.width = raw.width == "auto" ? 0 : unsigned(std::stoul(raw.width));
   options.compile.optimization = std::stoi(raw.optimization);
-  options.diagnostics = raw.diagnostics == "json" ? DiagnosticFormat::Json : DiagnosticFormat::Text;
+  options.diagnostics = format_of(raw.diagnostics);
   options.colour = colour_wanted();
   options.compile.color_diagnostics = options.colour;
   move_inputs_from_files(options);
