@@ -53,7 +53,7 @@ void emit_module(Generated& generated, const ir::Module& module, const Options& 
   CodeInfo& info = generated.info;
   const Domain domain(parts.context, info.precision, info.width), single(parts.context, info.precision, 1);
   const FunctionAttributes attributes = attributes_for(parts.target, domain);
-  std::vector<FaultPlace> places;
+  const FaultPlaces places(module);
   ModuleEmitter emitter(*parts.module, module, domain, attributes, places);
   for (const ir::Entry& entry : module.entries) {
     std::vector<bool> uniform;
@@ -69,11 +69,12 @@ void emit_module(Generated& generated, const ir::Module& module, const Options& 
     ModuleEmitter init(*parts.module, module, single, attributes, places);
     emit_init(init, info.init_symbol);
   }
-  for (const FaultPlace& place : places)
-    info.places.push_back({place.code, place.span, place.message});
-  for (EntryCode& entry : info.entries)
-    for (const FaultPlace& place : places)
-      entry.info.site_codes.push_back(place.code);
+  for (const ir::Instruction* place : places.places) {
+    const FaultCode code = place->op == ir::Op::Step ? FaultCode::StepLimit : place->fault;
+    info.places.push_back({code, place->span, place->text});
+    for (EntryCode& entry : info.entries)
+      entry.info.site_codes.push_back(code);
+  }
 #ifndef NDEBUG
   if (std::string complaint = verify(*parts.module); !complaint.empty())
     generated.error = "internal error: " + complaint;

@@ -19,6 +19,15 @@ ConstantsLayout layout_constants(const ir::Module& module, Precision precision) 
   return layout;
 }
 
+FaultPlaces::FaultPlaces(const ir::Module& module) {
+  for (const ir::Function& function : module.functions)
+    each_instruction(function, function.body, [&](const ir::Instruction& instruction) {
+      if (instruction.op != Op::Fault && instruction.op != Op::Step) return;
+      numbers[&instruction] = static_cast<uint32_t>(places.size());
+      places.push_back(&instruction);
+    });
+}
+
 void FunctionAttributes::apply(llvm::Function& function) const {
   for (const char* name : {"target-cpu", "target-features", "tune-cpu", "prefer-vector-width", "min-legal-vector-width",
                            "stack-protector-buffer-size", "frame-pointer", "no-trapping-math", "uwtable"})
@@ -35,7 +44,7 @@ void FunctionAttributes::apply(llvm::Function& function) const {
 // --------------------------------------------------------------------------------------------------------- Modules
 
 ModuleEmitter::ModuleEmitter(llvm::Module& llvm_module, const ir::Module& module, const Domain& domain,
-                             const FunctionAttributes& attributes, std::vector<FaultPlace>& places)
+                             const FunctionAttributes& attributes, const FaultPlaces& places)
     : llvm_module(llvm_module), module(module), domain(domain), layout(layout_constants(module, domain.precision)),
       sizes(plan_sizes(module)), fault_facts(codegen::fault_facts(module)), attributes_(attributes), places_(places) {
   for (const FaultFacts& facts : fault_facts)
@@ -49,15 +58,6 @@ const FunctionFacts& ModuleEmitter::facts(ir::FunctionId function, const ir::Sig
     facts = std::make_unique<FunctionFacts>(function_facts(module.functions[function], uniformity));
   }
   return *facts;
-}
-
-uint32_t ModuleEmitter::place(const ir::Instruction& instruction) {
-  const auto [entry, is_new] = place_numbers_.try_emplace(&instruction, static_cast<uint32_t>(places_.size()));
-  if (is_new) {
-    const FaultCode code = instruction.op == Op::Step ? FaultCode::StepLimit : instruction.fault;
-    places_.push_back({code, instruction.span, instruction.text});
-  }
-  return entry->second;
 }
 
 llvm::Function* ModuleEmitter::new_function(llvm::FunctionType* type, const std::string& name, bool internal) {

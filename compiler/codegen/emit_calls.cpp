@@ -5,50 +5,81 @@ namespace moonshade::codegen {
 
 // --------------------------------------------------------------------------------------------------------- Library
 
-llvm::Function* ModuleEmitter::library_export(const LibraryFunction& row, unsigned width, unsigned pointers) {
+namespace {
+
+/// The body of a function by value around an export, which takes pointers (library.h).
+void write_wrapper(llvm::Function& wrapper, llvm::Function& body, const LibraryFunction& row, const Domain& domain,
+                   bool varying) {
+  Builder builder(llvm::BasicBlock::Create(domain.context, "entry", &wrapper));
+  const auto memory = [&](ValueType type) {
+    return builder.CreateAlloca(llvm::ArrayType::get(domain.memory_part(type, varying), component_count(type)));
+  };
+  const auto element = [&](ValueType type, llvm::Value* array, unsigned component) {
+    return builder.CreateConstInBoundsGEP1_64(domain.memory_part(type, varying), array, component);
+  };
+  std::vector<llvm::Value*> pointers;
+  for (unsigned i = 0; i < row.result_count; ++i)
+    pointers.push_back(memory(row.results[i]));
+  llvm::Argument* argument = wrapper.arg_begin();
+  for (unsigned i = 0; i < row.parameter_count; ++i) {
+    const ValueType type = row.parameters[i];
+    pointers.push_back(memory(type));
+    for (unsigned c = 0; c < component_count(type); ++c)
+      builder.CreateStore(to_memory(builder, domain, type, argument++), element(type, pointers.back(), c));
+  }
+  builder.CreateCall(&body, pointers);
+  llvm::Value* result = llvm::Constant::getNullValue(wrapper.getReturnType());
+  unsigned part = 0;
+  for (unsigned i = 0; i < row.result_count; ++i)
+    for (unsigned c = 0; c < component_count(row.results[i]); ++c) {
+      llvm::Value* loaded =
+          builder.CreateLoad(domain.memory_part(row.results[i], varying), element(row.results[i], pointers[i], c));
+      result = builder.CreateInsertValue(result, from_memory(builder, row.results[i], loaded), part++);
+    }
+  builder.CreateRet(result);
+}
+
+} // namespace
+
+llvm::Function* ModuleEmitter::library_function(const LibraryFunction& row, bool varying) {
+  const unsigned width = varying ? domain.width : 1;
   const char* representation = domain.precision == Precision::F32 ? "f32" : "f64";
-  const std::string name = "ms_" + std::string(row.symbol) + "_" + representation + "_w" + std::to_string(width);
-  if (llvm::Function* known = llvm_module.getFunction(name)) return known;
-  const std::vector<llvm::Type*> parameters(pointers, llvm::PointerType::get(domain.context, 0));
-  auto* type = llvm::FunctionType::get(llvm::Type::getVoidTy(domain.context), parameters, false);
-  return new_function(type, name, false);
+  const std::string name = std::string(row.symbol) + "_" + representation + "_w" + std::to_string(width);
+  if (llvm::Function* known = llvm_module.getFunction("moonshade_" + name)) return known;
+  llvm::Type* pointer = llvm::PointerType::get(domain.context, 0);
+  const std::vector<llvm::Type*> pointers(size_t{row.result_count} + row.parameter_count, pointer);
+  llvm::Type* nothing = llvm::Type::getVoidTy(domain.context);
+  llvm::Function* body = new_function(llvm::FunctionType::get(nothing, pointers, false), "ms_" + name, false);
+  std::vector<llvm::Type*> results, parameters;
+  for (unsigned i = 0; i < row.result_count; ++i)
+    results.insert(results.end(), component_count(row.results[i]), domain.part(row.results[i], varying));
+  for (unsigned i = 0; i < row.parameter_count; ++i)
+    parameters.insert(parameters.end(), component_count(row.parameters[i]), domain.part(row.parameters[i], varying));
+  llvm::Type* result = llvm::StructType::get(domain.context, results);
+  llvm::Function* wrapper = new_function(llvm::FunctionType::get(result, parameters, false), "moonshade_" + name, true);
+  // Pure and total, so calls of it can be merged and moved before anything is inlined.
+  wrapper->setDoesNotAccessMemory();
+  wrapper->setWillReturn();
+  wrapper->setSpeculatable();
+  write_wrapper(*wrapper, *body, row, domain, varying);
+  return wrapper;
 }
 
-/// Memory for one argument or result of an export.
-llvm::Value* FunctionEmitter::lane_memory(ValueType type, bool varying, const char* name) {
-  return masks.allocate(llvm::ArrayType::get(domain_.memory_part(type, varying), component_count(type)), name);
-}
-
-/// One call of an export, on one lane where nothing varies.
+/// One call of a library function; on one lane where nothing varies.
 std::vector<Lanes> FunctionEmitter::library_call(const LibraryFunction& row, std::vector<Lanes> arguments) {
   bool varying = false;
   for (const Lanes& argument : arguments)
     varying |= argument.varying();
-  std::vector<llvm::Value*> pointers;
-  for (unsigned i = 0; i < row.result_count; ++i)
-    pointers.push_back(lane_memory(row.results[i], varying, "out"));
-  for (unsigned i = 0; i < row.parameter_count; ++i) {
-    const ValueType type = row.parameters[i];
-    llvm::Value* memory = lane_memory(type, varying, "in");
-    llvm::Type* element = domain_.memory_part(type, varying);
-    for (size_t c = 0; c < arguments[i].parts.size(); ++c) {
-      llvm::Value* part = arguments[i].parts[c];
-      if (varying) part = broadcast(builder, domain_, part);
-      builder.CreateStore(to_memory(builder, domain_, type, part),
-                          builder.CreateConstInBoundsGEP1_64(element, memory, c));
-    }
-    pointers.push_back(memory);
-  }
-  const unsigned width = varying ? domain_.width : 1;
-  builder.CreateCall(owner_.library_export(row, width, static_cast<unsigned>(pointers.size())), pointers);
+  std::vector<llvm::Value*> operands;
+  for (const Lanes& argument : arguments)
+    for (llvm::Value* part : argument.parts)
+      operands.push_back(varying ? broadcast(builder, domain_, part) : part);
+  llvm::Value* result = builder.CreateCall(owner_.library_function(row, varying), operands);
   std::vector<Lanes> results(row.result_count);
-  for (unsigned i = 0; i < row.result_count; ++i) {
-    llvm::Type* element = domain_.memory_part(row.results[i], varying);
-    for (unsigned c = 0; c < component_count(row.results[i]); ++c) {
-      llvm::Value* loaded = builder.CreateLoad(element, builder.CreateConstInBoundsGEP1_64(element, pointers[i], c));
-      results[i].parts.push_back(from_memory(builder, row.results[i], loaded));
-    }
-  }
+  unsigned part = 0;
+  for (unsigned i = 0; i < row.result_count; ++i)
+    for (unsigned c = 0; c < component_count(row.results[i]); ++c)
+      results[i].parts.push_back(builder.CreateExtractValue(result, part++));
   return results;
 }
 

@@ -23,8 +23,8 @@
 
 #include <map>
 #include <memory>
-#include <set>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 namespace moonshade::codegen {
@@ -37,11 +37,11 @@ struct ConstantsLayout {
 };
 ConstantsLayout layout_constants(const ir::Module& module, Precision precision);
 
-/// A place that can fault.
-struct FaultPlace {
-  FaultCode code;
-  Span span;
-  std::string message;
+/// The places of a module that can fault, numbered in its order: the same numbers at every width.
+struct FaultPlaces {
+  explicit FaultPlaces(const ir::Module& module);
+  std::vector<const ir::Instruction*> places;
+  std::unordered_map<const ir::Instruction*, uint32_t> numbers;
 };
 
 /// Attributes that every function of the module gets.
@@ -71,16 +71,16 @@ enum BlockFlag : uint8_t { kRunning = 0, kAllFaulted = 1, kOverflowed = 2 };
 class ModuleEmitter {
 public:
   ModuleEmitter(llvm::Module& llvm_module, const ir::Module& module, const Domain& domain,
-                const FunctionAttributes& attributes, std::vector<FaultPlace>& places);
+                const FunctionAttributes& attributes, const FaultPlaces& places);
 
   const FunctionFacts& facts(ir::FunctionId function, const ir::Signature& signature);
   /// The LLVM function of an outlined function of the IR.
   llvm::Function* outlined(ir::FunctionId function, const ir::Signature& signature);
-  /// The export of a library function for `width` lanes.
-  llvm::Function* library_export(const LibraryFunction& row, unsigned width, unsigned pointers);
+  /// The library function for lanes or, with `varying` false, for one value: by value, pure.
+  llvm::Function* library_function(const LibraryFunction& row, bool varying);
   /// The type of the results, as outlined functions give them back.
   llvm::Type* results_type(const ir::Function& function, const ir::Uniformity& uniformity) const;
-  uint32_t place(const ir::Instruction& instruction);
+  uint32_t place(const ir::Instruction& instruction) const { return places_.numbers.at(&instruction); }
   llvm::Function* new_function(llvm::FunctionType* type, const std::string& name, bool internal);
 
   llvm::Module& llvm_module;
@@ -98,8 +98,7 @@ public:
 private:
   using Key = std::pair<ir::FunctionId, ir::Signature>;
   const FunctionAttributes& attributes_;
-  std::vector<FaultPlace>& places_;
-  std::map<const ir::Instruction*, uint32_t> place_numbers_;
+  const FaultPlaces& places_;
   ir::UniformityTable uniformity_;
   std::map<Key, std::unique_ptr<FunctionFacts>> facts_;
   std::map<Key, llvm::Function*> outlined_;
@@ -178,7 +177,6 @@ private:
   std::vector<Lanes> call(ir::ValueId id, const ir::Instruction& instruction);
   std::vector<Lanes> call_outlined(ir::FunctionId callee, const ir::Signature& signature,
                                    const std::vector<Lanes>& arguments, const std::vector<Slot>& captures);
-  llvm::Value* lane_memory(ValueType type, bool varying, const char* name);
 
   // emit_control.cpp
   void if_else(const ir::Instruction& instruction);

@@ -12,15 +12,6 @@ using ir::Op;
 /// Above this many instructions in all its places of use, a function is not emitted in place.
 constexpr uint64_t kInlineBudget = 1500;
 
-template <class Visit> void each_instruction(const ir::Function& function, const ir::Block& block, Visit&& visit) {
-  for (const ir::ValueId id : block.instructions) {
-    const ir::Instruction& instruction = function.instructions[id];
-    visit(instruction);
-    for (const ir::Block& inner : instruction.blocks)
-      each_instruction(function, inner, visit);
-  }
-}
-
 class FactsWalk {
 public:
   FactsWalk(const ir::Function& function, FunctionFacts& facts) : function_(function), facts_(facts) {}
@@ -135,12 +126,6 @@ FunctionFacts function_facts(const ir::Function& function, const ir::Uniformity&
   walk.finish();
   std::fill_n(facts.homes.begin(), function.captures, nullptr);
   return facts;
-}
-
-uint64_t block_size(const ir::Function& function, const ir::Block& block) {
-  uint64_t size = 0;
-  each_instruction(function, block, [&](const ir::Instruction&) { ++size; });
-  return size;
 }
 
 SizePlan plan_sizes(const ir::Module& module) {

@@ -35,7 +35,14 @@ struct FaultFacts {
 };
 std::vector<FaultFacts> fault_facts(const ir::Module& module);
 
-/// Instructions in a block and in those nested there.
-uint64_t block_size(const ir::Function& function, const ir::Block& block);
+/// Visits the instructions of a block and of those nested there, in order.
+template <class Visit> void each_instruction(const ir::Function& function, const ir::Block& block, Visit&& visit) {
+  for (const ir::ValueId id : block.instructions) {
+    const ir::Instruction& instruction = function.instructions[id];
+    visit(instruction);
+    for (const ir::Block& inner : instruction.blocks)
+      each_instruction(function, inner, visit);
+  }
+}
 
 } // namespace moonshade::codegen

@@ -6,12 +6,11 @@
 #include <llvm/Support/Error.h>
 #include <llvm/Support/MemoryBuffer.h>
 
+#include <set>
+
 namespace moonshade::codegen {
 
 namespace {
-
-/// A library function of more instructions than this in all its places of use is called rather than inlined.
-constexpr size_t kInlineBudget = 4000;
 
 bool is_export_of(const llvm::Function& function, unsigned width) {
   return function.isDeclaration() && function.getName().starts_with("ms_") &&
@@ -39,8 +38,6 @@ void link_width(llvm::Module& module, Precision precision, unsigned width, std::
     error = "the library's bitcode cannot be linked";
 }
 
-size_t uses(const llvm::Function& function) { return function.getNumUses(); }
-
 } // namespace
 
 void link_library(llvm::Module& module, const Domain& domain, const FunctionAttributes& attributes,
@@ -63,12 +60,10 @@ void link_library(llvm::Module& module, const Domain& domain, const FunctionAttr
     function.setLinkage(llvm::GlobalValue::InternalLinkage);
     function.setComdat(nullptr);
     attributes.apply(function);
-    const size_t size = function.getInstructionCount();
-    const bool in_place = uses(function) <= 1 || size * uses(function) <= kInlineBudget;
     function.removeFnAttr(llvm::Attribute::NoInline);
     function.removeFnAttr(llvm::Attribute::OptimizeNone);
     function.removeFnAttr(llvm::Attribute::AlwaysInline);
-    function.addFnAttr(in_place ? llvm::Attribute::AlwaysInline : llvm::Attribute::NoInline);
+    function.addFnAttr(llvm::Attribute::AlwaysInline);
   }
 }
 

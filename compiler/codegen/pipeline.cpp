@@ -22,7 +22,20 @@ namespace moonshade::codegen {
 
 namespace {
 
-llvm::FunctionPassManager function_passes(int level) {
+/// A library function that comes to more instructions than this at all its calls is called rather than inlined.
+constexpr size_t kInlineBudget = 1000;
+
+/// While library functions are still calls of pure functions: merges equal calls, takes uniform ones out of the loop
+/// over blocks, drops those without a use.
+llvm::FunctionPassManager early_passes() {
+  llvm::FunctionPassManager passes;
+  passes.addPass(llvm::SROAPass(llvm::SROAOptions::ModifyCFG));
+  passes.addPass(llvm::EarlyCSEPass(true));
+  passes.addPass(llvm::createFunctionToLoopPassAdaptor(llvm::LICMPass(llvm::LICMOptions()), /*UseMemorySSA=*/true));
+  return passes;
+}
+
+llvm::FunctionPassManager late_passes(int level) {
   llvm::FunctionPassManager passes;
   passes.addPass(llvm::SROAPass(llvm::SROAOptions::ModifyCFG));
   passes.addPass(llvm::EarlyCSEPass(level > 1));
@@ -41,6 +54,34 @@ llvm::FunctionPassManager function_passes(int level) {
   return passes;
 }
 
+/// Emitted from the IR: neither of the library nor a wrapper around a function of it.
+bool is_own(const llvm::Function& function) {
+  return !function.isDeclaration() && !function.doesNotAccessMemory() &&
+         !function.hasFnAttribute(llvm::Attribute::AlwaysInline);
+}
+
+/// The size of a wrapper: that of the library function in it.
+size_t size_of(const llvm::Function& wrapper) {
+  size_t size = 0;
+  for (const llvm::BasicBlock& block : wrapper)
+    for (const llvm::Instruction& instruction : block) {
+      const auto* call = llvm::dyn_cast<llvm::CallInst>(&instruction);
+      const llvm::Function* callee = call != nullptr ? call->getCalledFunction() : nullptr;
+      size += callee != nullptr ? callee->getInstructionCount() : 1;
+    }
+  return size;
+}
+
+/// Now that it is known how often each library function is called, decides which are inlined.
+void choose_inlining(llvm::Module& module) {
+  for (llvm::Function& function : module) {
+    if (function.isDeclaration() || !function.doesNotAccessMemory() || !function.hasLocalLinkage()) continue;
+    const size_t calls = function.getNumUses();
+    const bool in_place = calls <= 1 || calls * size_of(function) <= kInlineBudget;
+    function.addFnAttr(in_place ? llvm::Attribute::AlwaysInline : llvm::Attribute::NoInline);
+  }
+}
+
 } // namespace
 
 void optimize(llvm::Module& module, llvm::TargetMachine& machine, int level) {
@@ -57,10 +98,16 @@ void optimize(llvm::Module& module, llvm::TargetMachine& machine, int level) {
   builder.registerFunctionAnalyses(functions);
   builder.registerLoopAnalyses(loops);
   builder.crossRegisterProxies(loops, functions, components, modules);
+  if (level > 0) {
+    llvm::FunctionPassManager early = early_passes();
+    for (llvm::Function& function : module)
+      if (is_own(function)) functions.invalidate(function, early.run(function, functions));
+  }
+  choose_inlining(module);
   llvm::ModulePassManager passes;
   passes.addPass(llvm::AlwaysInlinerPass(/*InsertLifetime=*/false));
   passes.addPass(llvm::GlobalDCEPass());
-  if (level > 0) passes.addPass(llvm::createModuleToFunctionPassAdaptor(function_passes(level)));
+  if (level > 0) passes.addPass(llvm::createModuleToFunctionPassAdaptor(late_passes(level)));
   passes.run(module, modules);
 }
 
