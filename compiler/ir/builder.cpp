@@ -34,8 +34,10 @@ bool has_break_to(const Function& function, const Block& block, LabelId label) {
 }
 
 bool falls_through(const Function& function, const Block& block) {
-  if (block.instructions.empty()) return true;
-  const Instruction& last = function.instructions[block.instructions.back()];
+  return block.instructions.empty() || falls_through(function, function.instructions[block.instructions.back()]);
+}
+
+bool falls_through(const Function& function, const Instruction& last) {
   switch (last.op) {
   case Op::Return:
   case Op::Break:

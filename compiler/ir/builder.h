@@ -88,8 +88,9 @@ private:
   Span span_{};
 };
 
-/// Whether execution can reach the end of the block.
+/// Whether execution can reach the end of the block; whether it can go on behind an instruction.
 bool falls_through(const Function& function, const Block& block);
+bool falls_through(const Function& function, const Instruction& instruction);
 
 /// Whether a break somewhere in the block names `label`.
 bool has_break_to(const Function& function, const Block& block, LabelId label);

@@ -8,6 +8,8 @@
 namespace moonshade::ir {
 namespace {
 
+constexpr int kMaxRounds = 8;
+
 /// Executed for its value alone.
 bool is_removable(Op op) {
   return info(op).shape == OpShape::Value || op == Op::Load || op == Op::LoadGlobal || op == Op::LoadElement;
@@ -145,8 +147,9 @@ void renumber(Function& function) {
 } // namespace
 
 void remove_dead_code(Function& function) {
-  while (Sweep(function, read_variables(function)).run()) {
-  }
+  // A store that goes may take the last load of another variable with it; chains of that are short.
+  for (int round = 0; round < kMaxRounds; ++round)
+    if (!Sweep(function, read_variables(function)).run()) break;
   dissolve_scopes(function);
   renumber(function);
 }

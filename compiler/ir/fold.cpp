@@ -118,7 +118,7 @@ private:
     for (Block& inner : at(id).blocks)
       walk(inner);
     result.push_back(id);
-    return falls_through(function_, Block{{id}});
+    return falls_through(function_, at(id));
   }
 
   /// op.lt, op.le and op.eq compare an integer with a number exactly. A constant that float holds too is as exact as a

@@ -44,8 +44,7 @@ private:
         break;
       default: {
         const std::optional<unsigned> one = speculation_cost(instruction);
-        if (!one) return {};
-        cost += *one;
+        if (!one || (cost += *one) > kSelectCost) return {};
       }
       }
     }

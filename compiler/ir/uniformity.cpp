@@ -40,7 +40,8 @@ struct Home {
 class HomeFinder {
 public:
   explicit HomeFinder(const Function& function)
-      : function_(function), accesses_(function.variables.size()), reads_(function.variables.size()) {}
+      : function_(function), accesses_(function.variables.size()), reads_(function.variables.size()),
+        stored_first_(function.variables.size(), -1) {}
 
   std::vector<Home> find() {
     path_.push_back({&function_.body, false, false});
@@ -67,8 +68,11 @@ private:
       case Op::LoadElement:
         narrow(reads_[instruction.index]);
         [[fallthrough]];
-      case Op::Store:
       case Op::StoreElement:
+        narrow(accesses_[instruction.index]);
+        break;
+      case Op::Store:
+        if (!accesses_[instruction.index]) stored_first_[instruction.index] = static_cast<int>(path_.size()) - 1;
         narrow(accesses_[instruction.index]);
         break;
       case Op::Call:
@@ -112,7 +116,8 @@ private:
     if (!accesses_[variable]) return home;
     const std::vector<Enclosing>& common = *accesses_[variable];
     for (size_t depth = common.size(); depth-- > 0;)
-      if (!common[depth].repeated || stores_first(*common[depth].block, variable)) {
+      if (!common[depth].repeated || stored_first_[variable] == static_cast<int>(depth) ||
+          (stored_first_[variable] > static_cast<int>(depth) && stores_first(*common[depth].block, variable))) {
         home.depth = static_cast<int>(depth);
         break;
       }
@@ -157,6 +162,7 @@ private:
   std::vector<Enclosing> path_;
   std::vector<Path> accesses_; ///< by variable
   std::vector<Path> reads_;
+  std::vector<int> stored_first_; ///< by variable: depth of its first access if that is a store, else -1
 };
 
 class Analysis {
