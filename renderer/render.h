@@ -16,9 +16,9 @@ struct Crop {
 };
 
 struct RenderOptions {
-  unsigned threads = 0;     ///< 0: as many as the machine has
-  double seconds = 0;       ///< stop after the pass in hand; 0: no limit
-  std::optional<Crop> crop; ///< within the image
+  unsigned threads = 0;                    ///< 0: as many as the machine has
+  double seconds = 0;                      ///< stop after the pass in hand; 0: no limit
+  std::optional<Crop> crop = std::nullopt; ///< within the image
 };
 
 /// Shared with the thread that shows progress or interrupts.

@@ -64,12 +64,15 @@ public:
       double in[40], out[4] = {};
       size_t at = 0;
       for (const InputInfo& input : info_.entries[entry].inputs)
-        for (unsigned c = 0; c < component_count(input.type); ++c, ++at) in[at] = read(batch.inputs[at], input.type, k);
+        for (unsigned c = 0; c < component_count(input.type); ++c, ++at)
+          in[at] = read(batch.inputs[at], input.type, k);
       FaultCode code = functions_[entry](in, out);
-      for (unsigned c = 0; c < results; ++c) write(batch.outputs[c], k, code == FaultCode::None ? out[c] : 0);
+      for (unsigned c = 0; c < results; ++c)
+        write(batch.outputs[c], k, code == FaultCode::None ? out[c] : 0);
       if (code == FaultCode::None) continue;
       batch.fault_codes[k] = uint8_t(code);
-      if (batch.faults->count++ == 0) batch.faults->first_point = k, batch.faults->first_code = code, batch.faults->first_site = 7;
+      if (batch.faults->count++ == 0)
+        batch.faults->first_point = k, batch.faults->first_code = code, batch.faults->first_site = 7;
     }
   }
   Precision precision_ = Precision::F32;
@@ -78,11 +81,14 @@ private:
   double read(const void* array, ValueType type, uint64_t k) const {
     if (type == ValueType::Integer) return double(static_cast<const int64_t*>(array)[k]);
     if (type == ValueType::Boolean) return static_cast<const uint8_t*>(array)[k];
-    return precision_ == Precision::F32 ? double(static_cast<const float*>(array)[k]) : static_cast<const double*>(array)[k];
+    return precision_ == Precision::F32 ? double(static_cast<const float*>(array)[k])
+                                        : static_cast<const double*>(array)[k];
   }
   void write(void* array, uint64_t k, double value) const {
-    if (precision_ == Precision::F32) static_cast<float*>(array)[k] = float(value);
-    else static_cast<double*>(array)[k] = value;
+    if (precision_ == Precision::F32)
+      static_cast<float*>(array)[k] = float(value);
+    else
+      static_cast<double*>(array)[k] = value;
   }
   ShaderInfo info_;
   std::vector<Function> functions_;

@@ -1,6 +1,7 @@
-// Microfacets: Walter et al. 2007 (GGX), Heitz 2014 (masking) and 2018 (sampling visible normals).
+// The lobes one by one and together.
 #include "renderer/materials/bsdf.h"
 
+#include "renderer/materials/ggx.h"
 #include "renderer/sampling/warp.h"
 
 namespace moonshade::renderer {
@@ -10,30 +11,6 @@ namespace {
 constexpr float kLeastAlpha = 1e-3f;
 
 float square(float x) { return x * x; }
-
-float ggx_density(const Vec3& h, float alpha) {
-  float t = (square(h.x / alpha) + square(h.y / alpha) + square(h.z));
-  return 1 / (kPi * alpha * alpha * t * t);
-}
-
-/// Smith's Lambda.
-float lambda(const Vec3& v, float alpha) {
-  float tan2 = (v.x * v.x + v.y * v.y) / std::max(v.z * v.z, 1e-12f);
-  return 0.5f * (std::sqrt(1 + alpha * alpha * tan2) - 1);
-}
-
-Vec3 sample_visible_normal(const Vec3& v, float alpha, const Vec2& u) {
-  Vec3 stretched = glm::normalize(Vec3(alpha * v.x, alpha * v.y, v.z));
-  float squared = stretched.x * stretched.x + stretched.y * stretched.y;
-  Vec3 t1 = squared > 0 ? Vec3(-stretched.y, stretched.x, 0) / std::sqrt(squared) : Vec3(1, 0, 0);
-  Vec3 t2 = glm::cross(stretched, t1);
-  float r = std::sqrt(u.x), phi = 2 * kPi * u.y;
-  float a = r * std::cos(phi), b = r * std::sin(phi);
-  float s = 0.5f * (1 + stretched.z);
-  b = (1 - s) * std::sqrt(std::max(0.0f, 1 - a * a)) + s * b;
-  Vec3 n = t1 * a + t2 * b + stretched * std::sqrt(std::max(0.0f, 1 - a * a - b * b));
-  return glm::normalize(Vec3(alpha * n.x, alpha * n.y, std::max(1e-6f, n.z)));
-}
 
 } // namespace
 
@@ -55,6 +32,8 @@ Bsdf::Bsdf(const SurfaceValues& values, const Vec3& shading_normal, const Vec3& 
   f0_ = glm::mix(Vec3(f0_dielectric_), values.color, values.metallic);
   f90_ = std::min(1.0f, 50 * max_component(f0_));
   alpha_ = std::max(square(values.roughness), kLeastAlpha);
+  float albedo = ggx_albedo(n_dot_v_, alpha_);
+  compensation_ = Vec3(1) + f0_ * ((1 - albedo) / albedo);
   diffuse_ = values.color * (1 - values.metallic);
 
   float mirror = luminance(reflectance_), base = 1 - mirror;
@@ -77,9 +56,9 @@ float Bsdf::glossy_pdf_and_value(const Vec3& in, Vec3& f_cos) const {
   Vec3 h = normalize_or(l + local_out_, Vec3(0, 0, 1));
   float v_dot_h = std::max(glm::dot(local_out_, h), 0.0f);
   float density = ggx_density(h, alpha_);
-  float lambda_v = lambda(local_out_, alpha_), lambda_l = lambda(l, alpha_);
+  float lambda_v = ggx_lambda(local_out_, alpha_), lambda_l = ggx_lambda(l, alpha_);
   Vec3 f = f0_ + (Vec3(f90_) - f0_) * schlick_power(v_dot_h);
-  f_cos += f * (density / ((1 + lambda_v + lambda_l) * 4 * n_dot_v_));
+  f_cos += f * compensation_ * (density / ((1 + lambda_v + lambda_l) * 4 * n_dot_v_));
   return density / ((1 + lambda_v) * 4 * n_dot_v_);
 }
 
@@ -128,7 +107,7 @@ BsdfSample Bsdf::sample(float choice, const Vec2& u) const {
     sample.direction = frame_.to_world(sample_cosine_hemisphere(u));
     sample.spread = 0.3f;
   } else if (glossy_probability_ > 0) {
-    Vec3 h = sample_visible_normal(local_out_, alpha_, u);
+    Vec3 h = ggx_sample_visible_normal(local_out_, alpha_, u);
     Vec3 l = h * (2 * glm::dot(local_out_, h)) - local_out_;
     if (l.z <= 0) return sample;
     sample.direction = frame_.to_world(l);

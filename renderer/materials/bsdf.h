@@ -4,7 +4,7 @@
 //
 // R = reflectance (the paper's reflect shader); diffuse = color / pi, weakened by what the coat reflects on the way in
 // and out; GGX with alpha = roughness^2, height-correlated Smith masking and Schlick's Fresnel, at normal incidence
-// ((ior - 1) / (ior + 1))^2, or `color` for metals.
+// ((ior - 1) / (ior + 1))^2, or `color` for metals, scaled for light that bounces more than once between facets.
 //
 // Shading normals differ from geometric ones (smooth meshes, bump mapping). A specular direction below the geometric
 // surface is folded back to its side (the density folds with it), so that bumps show no black spots; diffuse light
@@ -70,7 +70,7 @@ private:
 
   Frame frame_;
   Vec3 ng_, out_, local_out_;
-  Vec3 reflectance_, diffuse_, f0_;
+  Vec3 reflectance_, diffuse_, f0_, compensation_;
   float f0_dielectric_, f90_, alpha_, n_dot_v_;
   float mirror_probability_ = 0, diffuse_probability_ = 0, glossy_probability_ = 0;
 };

@@ -14,7 +14,8 @@
 //     light{ type = "sun", direction (towards it), color, intensity, angle }
 //     light{ type = "sky", zenith, horizon, ground, color, intensity }
 //     light{ type = "point", position, color, intensity }
-//     light{ type = "area", center, u, v, color, intensity, two_sided }          two_sided = false: cross(u, v) side only
+//     light{ type = "area", center, u, v, color, intensity, two_sided }          two_sided = false: cross(u, v) side
+//     only
 // Objects also take `scale`, `rotate` = {x, y, z} degrees, `translate`, applied in this order.
 #pragma once
 

@@ -58,12 +58,14 @@ TEST_F(LuaScene, NamesLineAndNearestNameOfWrongFields) {
   EXPECT_EQ(error("sphere{ radius = -1 }"), "s.lua:1: sphere: 'radius' lies between 1e-20 and 1e+30");
   EXPECT_EQ(error("sphere{ center = {1, 2} }"), "s.lua:1: sphere: 'center' is a list of 3 numbers");
   EXPECT_EQ(error("sphere{ center = {1, 2, 0/0} }"), "s.lua:1: sphere: 'center' is a list of 3 numbers");
-  EXPECT_EQ(error("sphere{}\nlight{ type = 'sum' }"), "s.lua:2: light: unknown type 'sum'; did you mean 'sun'? (known: sun, sky, point, area)");
+  EXPECT_EQ(error("sphere{}\nlight{ type = 'sum' }"),
+            "s.lua:2: light: unknown type 'sum'; did you mean 'sun'? (known: sun, sky, point, area)");
   EXPECT_EQ(error("sphere{}\nlight{}"), "s.lua:2: light: the field 'type' is missing");
   EXPECT_EQ(error("render{ width = 1.5 }"), "s.lua:1: render: 'width' is an integer");
   EXPECT_EQ(error("sphere{ material = 'gold' }"), "s.lua:1: sphere: there is no material 'gold'");
   EXPECT_EQ(error("sphere{ material = {} }"), "s.lua:1: sphere: 'material' is what material{} gave, or its name");
-  EXPECT_EQ(error("material{ name = 'a' }\nmaterial{ name = 'a' }"), "s.lua:2: material: there is a material 'a' already");
+  EXPECT_EQ(error("material{ name = 'a' }\nmaterial{ name = 'a' }"),
+            "s.lua:2: material: there is a material 'a' already");
   EXPECT_EQ(error("material{ transmission = 1 }"), "s.lua:1: material: 'transmission' is not available yet");
   EXPECT_EQ(error("material{ color = {1, -1, 0} }"), "s.lua:1: material: 'color' is not negative");
   EXPECT_THAT(error("sphere{ 1, 2 }"), HasSubstr("s.lua:1: sphere: takes named fields only: name, center, radius"));
@@ -84,7 +86,8 @@ TEST_F(LuaScene, OpensOnlyFilesOfItsFolders) {
   auto error = [&](const std::string& text) { return parse_lua_scene(folder_ / "s.lua", text, folders).error; };
   EXPECT_EQ(error("sphere{ material = material{ shader = 'in.lua', height = 'sub/deep.lua' } }"), "");
   EXPECT_EQ(error("sphere{ material = material{ shader = 'sub/../in.lua' } }"), "");
-  EXPECT_THAT(error("material{ shader = '../in.lua' }"), HasSubstr("s.lua:1: material: 'shader': '../in.lua' lies outside the folders"));
+  EXPECT_THAT(error("material{ shader = '../in.lua' }"),
+              HasSubstr("s.lua:1: material: 'shader': '../in.lua' lies outside the folders"));
   EXPECT_THAT(error("material{ color = '/etc/passwd' }"), HasSubstr("lies outside the folders"));
   EXPECT_THAT(error("obj{ file = 'none.obj' }"), HasSubstr("s.lua:1: obj: 'file': there is no file 'none.obj'"));
 }
@@ -97,8 +100,9 @@ TEST_F(LuaScene, TellsWhereAModelIsWrong) {
 }
 
 TEST_F(LuaScene, HasNoDangerousFunctions) {
-  for (const char* name : {"io", "os", "debug", "package", "require", "load", "loadfile", "dofile", "loadstring", "coroutine",
-                           "collectgarbage", "setmetatable", "getmetatable", "pcall", "string.gsub", "string.dump", "table.move"})
+  for (const char* name :
+       {"io", "os", "debug", "package", "require", "load", "loadfile", "dofile", "loadstring", "coroutine",
+        "collectgarbage", "setmetatable", "getmetatable", "pcall", "string.gsub", "string.dump", "table.move"})
     EXPECT_EQ(error("assert(" + std::string(name) + " == nil) sphere{}"), "") << name;
 }
 
@@ -127,7 +131,8 @@ TEST_F(LuaScene, IsTheSameEveryTime) {
   SceneReading first = parse(text), second = parse(text);
   ASSERT_TRUE(first.scene && second.scene) << first.error;
   const Scene &a = *first.scene, &b = *second.scene;
-  for (size_t i = 0; i < 50; ++i) EXPECT_EQ(a.objects[i].to_world, b.objects[i].to_world);
+  for (size_t i = 0; i < 50; ++i)
+    EXPECT_EQ(a.objects[i].to_world, b.objects[i].to_world);
 }
 
 TEST_F(LuaScene, RemembersFieldsAsTheyWereAtTheCall) {

@@ -13,7 +13,8 @@ using testing::TemporaryFolder;
 class MtlReader : public ::testing::Test {
 protected:
   MtlReader() {
-    for (const char* name : {"a.lua", "b.lua", "with blank.lua", "sub/c.lua"}) folder_.write(name, "");
+    for (const char* name : {"a.lua", "b.lua", "with blank.lua", "sub/c.lua"})
+      folder_.write(name, "");
   }
   MtlReading parse(const std::string& text) { return parse_mtl(folder_ / "m.mtl", text, folder_.folders()); }
   TemporaryFolder folder_;
@@ -22,7 +23,8 @@ protected:
 TEST_F(MtlReader, KnowsBothSpellingsOfTheShaderStatements) {
   for (const char* separator : {"_", " "}) {
     std::string s = separator;
-    MtlReading mtl = parse("newmtl m\r\ntexture" + s + "shader a.lua\r\n\tbump" + s + "shader  b.lua  \r\nreflect" + s + "shader sub/c.lua\r\n");
+    MtlReading mtl = parse("newmtl m\r\ntexture" + s + "shader a.lua\r\n\tbump" + s + "shader  b.lua  \r\nreflect" + s +
+                           "shader sub/c.lua\r\n");
     ASSERT_EQ(mtl.error, "");
     EXPECT_TRUE(mtl.warnings.empty());
     EXPECT_EQ(mtl.materials[0].shaders[size_t(Slot::Color)], folder_ / "a.lua");
@@ -37,8 +39,10 @@ TEST_F(MtlReader, TakesNamesWithBlanksAndBackslashes) {
 }
 
 TEST_F(MtlReader, RefusesShadersThatItCannotOpen) {
-  EXPECT_EQ(parse("newmtl m\n\nbump_shader none.lua\n").error, folder_ / "m.mtl:3: bump_shader: there is no file 'none.lua'");
-  EXPECT_THAT(parse("newmtl m\ntexture_shader /etc/passwd\n").error, HasSubstr("m.mtl:2: texture_shader: '/etc/passwd' lies outside"));
+  EXPECT_EQ(parse("newmtl m\n\nbump_shader none.lua\n").error,
+            folder_ / "m.mtl:3: bump_shader: there is no file 'none.lua'");
+  EXPECT_THAT(parse("newmtl m\ntexture_shader /etc/passwd\n").error,
+              HasSubstr("m.mtl:2: texture_shader: '/etc/passwd' lies outside"));
   EXPECT_THAT(parse("newmtl m\nreflect shader ../../etc/passwd\n").error, HasSubstr("lies outside the folders"));
   EXPECT_EQ(parse("newmtl m\ntexture_shader\n").error, folder_ / "m.mtl:2: texture_shader names no file");
 }
@@ -52,7 +56,8 @@ TEST_F(MtlReader, BumpImagesAreNoShaders) {
 }
 
 TEST_F(MtlReader, ReadsTheCommonNumbers) {
-  MtlReading mtl = parse("newmtl a b\nKd 0.1 0.2 0.3\nKs 0 0 0\nNs 6\nKe 2\nnewmtl other\nPr 0.25\nPm 1\nNi 1.3\nd 0.5\nKd x y z\n");
+  MtlReading mtl =
+      parse("newmtl a b\nKd 0.1 0.2 0.3\nKs 0 0 0\nNs 6\nKe 2\nnewmtl other\nPr 0.25\nPm 1\nNi 1.3\nd 0.5\nKd x y z\n");
   ASSERT_EQ(mtl.materials.size(), 2u);
   const Material &first = mtl.materials[0], &second = mtl.materials[1];
   EXPECT_EQ(first.name, "a b");

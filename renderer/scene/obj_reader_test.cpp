@@ -62,7 +62,8 @@ TEST(ObjReader, SplitsConcaveQuadsInside) {
 TEST(ObjReader, ReadsFacesOfManyCorners) {
   std::string text, face = "f";
   for (int i = 0; i < 500; ++i) {
-    text += "v " + std::to_string(std::cos(i * 2 * M_PI / 500)) + " " + std::to_string(std::sin(i * 2 * M_PI / 500)) + " 0\n";
+    text += "v " + std::to_string(std::cos(i * 2 * M_PI / 500)) + " " + std::to_string(std::sin(i * 2 * M_PI / 500)) +
+            " 0\n";
     face += " " + std::to_string(i + 1);
   }
   ObjReading obj = parse(text + face + "\n");
@@ -74,7 +75,8 @@ TEST(ObjReader, ReadsFacesOfManyCorners) {
 TEST(ObjReader, NamesFileAndLineOfWhatIsWrong) {
   EXPECT_EQ(parse(kSquare + "f 1 2 9\n").error, "m.obj:5: the face names vertex 9, but there are 4 so far");
   EXPECT_EQ(parse(kSquare + "\n\nf 1 2 -5\n").error, "m.obj:7: the face names vertex -5, but there are 4 so far");
-  EXPECT_EQ(parse(kSquare + "f 1/1 2/1 3/1\n").error, "m.obj:5: the face names texture coordinate 1, but there are 0 so far");
+  EXPECT_EQ(parse(kSquare + "f 1/1 2/1 3/1\n").error,
+            "m.obj:5: the face names texture coordinate 1, but there are 0 so far");
   EXPECT_EQ(parse(kSquare + "f 1//2 2//2 3//2\n").error, "m.obj:5: the face names normal 2, but there are 0 so far");
   EXPECT_EQ(parse(kSquare + "f 0 1 2\n").error, "m.obj:5: the face names vertex 0, but there are 4 so far");
   EXPECT_EQ(parse("v 1 2\nf 1 1 1\n").error, "m.obj:1: expected at least 3 numbers");
@@ -100,7 +102,8 @@ TEST(ObjReader, SkipsFacesThatCannotBeDrawn) {
 TEST(ObjReader, SmoothsWhereAnglesAreSmall) {
   // Two squares along a fold of 20 degrees, then of 90.
   for (auto [height, smooth] : {std::pair{0.364f, true}, std::pair{100.0f, false}}) {
-    ObjReading obj = parse(kSquare + "v 2 0 " + std::to_string(height) + "\nv 2 1 " + std::to_string(height) + "\nf 1 2 3 4\nf 2 5 6 3\n");
+    ObjReading obj = parse(kSquare + "v 2 0 " + std::to_string(height) + "\nv 2 1 " + std::to_string(height) +
+                           "\nf 1 2 3 4\nf 2 5 6 3\n");
     ASSERT_TRUE(obj.mesh) << obj.error;
     const Mesh& mesh = *obj.mesh;
     Vec3 at_fold(0);
@@ -118,25 +121,29 @@ TEST(ObjReader, FollowsSmoothingGroups) {
   ObjReading joined = parse(fold + "s 1\nf 1 2 3 4\nf 2 5 6 3\n");
   Vec3 expected = glm::normalize(glm::normalize(Vec3(-1, 0, 1)) + Vec3(0, 0, 1));
   bool found = false;
-  for (const Vec3& n : joined.mesh->normals) found |= glm::distance(n, expected) < 1e-5f;
+  for (const Vec3& n : joined.mesh->normals)
+    found |= glm::distance(n, expected) < 1e-5f;
   EXPECT_TRUE(found);
   // In two groups none is shared.
   ObjReading apart = parse(fold + "s 1\nf 1 2 3 4\ns 2\nf 2 5 6 3\n");
-  for (const Vec3& n : apart.mesh->normals) EXPECT_GT(glm::distance(n, expected), 0.1f);
+  for (const Vec3& n : apart.mesh->normals)
+    EXPECT_GT(glm::distance(n, expected), 0.1f);
 }
 
 TEST(ObjReader, SmoothsAcrossRepeatedPositions) {
   ObjReading obj = parse(kSquare + "v 1 0 0\nv 1 1 0\nv 2 0 0.3\nv 2 1 0.3\nf 1 2 3 4\nf 5 7 8 6\n");
   ASSERT_TRUE(obj.mesh) << obj.error;
   bool bent = false;
-  for (const Vec3& n : obj.mesh->normals) bent |= n.z < 0.999f && n.z > 0.97f;
+  for (const Vec3& n : obj.mesh->normals)
+    bent |= n.z < 0.999f && n.z > 0.97f;
   EXPECT_TRUE(bent);
 }
 
 TEST(ObjReader, ReadsMaterialsAndGroupsThemIntoSlots) {
   TemporaryFolder folder;
   folder.write("two words.mtl", "newmtl red\nKd 1 0 0\nnewmtl unused\n");
-  std::string path = folder.write("m.obj", "mtllib two words.mtl\n" + kSquare + "usemtl red\nf 1 2 3\nusemtl missing\nf 1 3 4\n");
+  std::string path =
+      folder.write("m.obj", "mtllib two words.mtl\n" + kSquare + "usemtl red\nf 1 2 3\nusemtl missing\nf 1 3 4\n");
   ObjReading obj = read_obj(path, folder.folders());
   ASSERT_TRUE(obj.mesh) << obj.error;
   ASSERT_EQ(obj.materials.size(), 2u);
@@ -175,11 +182,13 @@ TEST(ObjReader, ReadsHundredsOfThousandsOfTriangles) {
   constexpr int kSide = 300;
   std::string text;
   for (int y = 0; y <= kSide; ++y)
-    for (int x = 0; x <= kSide; ++x) text += "v " + std::to_string(x) + " " + std::to_string(y) + " 0\n";
+    for (int x = 0; x <= kSide; ++x)
+      text += "v " + std::to_string(x) + " " + std::to_string(y) + " 0\n";
   for (int y = 0; y < kSide; ++y)
     for (int x = 0; x < kSide; ++x) {
       int a = y * (kSide + 1) + x + 1;
-      text += "f " + std::to_string(a) + " " + std::to_string(a + 1) + " " + std::to_string(a + kSide + 2) + " " + std::to_string(a + kSide + 1) + "\n";
+      text += "f " + std::to_string(a) + " " + std::to_string(a + 1) + " " + std::to_string(a + kSide + 2) + " " +
+              std::to_string(a + kSide + 1) + "\n";
     }
   ObjReading obj = parse(text);
   ASSERT_TRUE(obj.mesh) << obj.error;
