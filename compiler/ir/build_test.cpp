@@ -2,6 +2,7 @@
 // after `optimize` for f64; the three must give the same bits and fault at the same points.
 #include "compiler/ir/passes.h"
 #include "compiler/ir/print.h"
+#include "compiler/ir/test_lanes.h"
 #include "compiler/ir/test_shaders.h"
 #include "compiler/ir/verify.h"
 
@@ -44,9 +45,42 @@ void expect_agreement(const std::string& text) {
     }
 }
 
+/// As many lanes as points, at once, every other input uniform: each lane must give what its point gives alone.
+void expect_lanes_agree(const std::string& text) {
+  const Checked checked = check(text);
+  ASSERT_THAT(checked.errors, IsEmpty()) << text;
+  Module module = build(checked.program);
+  for (const bool optimized : {false, true}) {
+    if (optimized) optimize(module, Precision::F64);
+    const std::vector<Value> parameters = parameters_of(checked.program.info);
+    for (size_t i = 0; i < module.entries.size(); ++i) {
+      const EntryInfo& entry = checked.program.info.entries[i];
+      for (const bool first_uniform : {false, true}) {
+        std::vector<bool> uniform;
+        for (size_t input = 0; input < entry.inputs.size(); ++input)
+          uniform.push_back(input % 2 == (first_uniform ? 0 : 1));
+        std::vector<std::vector<Value>> points;
+        for (unsigned point = 0; point < kPoints; ++point) {
+          points.push_back(inputs_at(entry, point));
+          for (size_t input = 0; input < entry.inputs.size(); ++input)
+            if (uniform[input]) points.back()[input] = points[0][input];
+        }
+        const LanesOutcome lanes = run_lanes(module, parameters, module.entries[i].function, points, uniform);
+        EXPECT_THAT(lanes.broken_promises, IsEmpty()) << text << to_text(module);
+        for (unsigned point = 0; point < kPoints; ++point) {
+          const Outcome alone = Interpreter(module, parameters).run(entry.name, points[point]);
+          EXPECT_EQ(to_text(lanes.lanes[point]), to_text(alone)) << text << "lane " << point << '\n' << to_text(module);
+          EXPECT_EQ(lanes.lanes[point].steps, alone.steps) << text << "lane " << point;
+        }
+      }
+    }
+  }
+}
+
 class Agreement : public testing::TestWithParam<const char*> {};
 
 TEST_P(Agreement, WithStockLua) { expect_agreement(GetParam()); }
+TEST_P(Agreement, OfLanesWithPoints) { expect_lanes_agree(GetParam()); }
 
 INSTANTIATE_TEST_SUITE_P(
     Expressions, Agreement,

@@ -109,15 +109,7 @@ private:
   }
 
   Value value(const Instruction& instruction) const {
-    Value result;
-    result.type = instruction.type;
     switch (instruction.op) {
-    case Op::ConstBoolean:
-      return Value::of(instruction.integer != 0);
-    case Op::ConstInteger:
-      return Value::of(instruction.integer);
-    case Op::ConstNumber:
-      return Value::of(instruction.number);
     case Op::Argument:
       return arguments_[instruction.index];
     case Op::LoadGlobal:
@@ -128,114 +120,13 @@ private:
       return variables_[instruction.index]->at(bits(operand(instruction, 0).integer));
     case Op::Result:
       return values_[instruction.operands[0]][instruction.index];
-    case Op::Select:
-      return operand(instruction, operand(instruction, 0).boolean ? 1 : 2);
-    case Op::Component:
-      return Value::of(operand(instruction, 0).numbers[instruction.index]);
-    case Op::IntegerToNumber:
-      return Value::of(static_cast<double>(operand(instruction, 0).integer));
-    case Op::Construct:
-      for (unsigned i = 0; i < component_count(instruction.type); ++i)
-        result.numbers[i] = operand(instruction, instruction.operands.size() == 1 ? 0 : i).numbers[0];
-      return result;
-    case Op::Eq:
-    case Op::Ne:
-    case Op::Lt:
-    case Op::Le:
-      return Value::of(compare(instruction));
     default:
       break;
     }
-    if (instruction.type == ValueType::Boolean) {
-      result.boolean = booleans(instruction);
-    } else if (instruction.type == ValueType::Integer) {
-      result.integer = static_cast<int64_t>(integers(instruction));
-    } else {
-      for (unsigned i = 0; i < component_count(instruction.type); ++i)
-        result.numbers[i] = numbers(instruction, i);
-    }
-    return result;
-  }
-
-  bool compare(const Instruction& instruction) const {
-    const Value &a = operand(instruction, 0), &b = operand(instruction, 1);
-    const bool less = instruction.op == Op::Lt, equality = instruction.op == Op::Eq || instruction.op == Op::Ne;
-    bool result = true;
-    if (equality) {
-      if (a.type == ValueType::Boolean)
-        result = a.boolean == b.boolean;
-      else if (a.type == ValueType::Integer)
-        result = a.integer == b.integer;
-      else
-        for (unsigned i = 0; i < component_count(a.type); ++i)
-          result = result && a.numbers[i] == b.numbers[i];
-      return (instruction.op == Op::Eq) == result;
-    }
-    if (a.type == ValueType::Integer) return less ? a.integer < b.integer : a.integer <= b.integer;
-    return less ? a.numbers[0] < b.numbers[0] : a.numbers[0] <= b.numbers[0];
-  }
-
-  bool booleans(const Instruction& instruction) const {
-    const bool a = operand(instruction, 0).boolean;
-    const bool b = instruction.operands.size() > 1 && operand(instruction, 1).boolean;
-    switch (instruction.op) {
-    case Op::And:
-      return a && b;
-    case Op::Or:
-      return a || b;
-    case Op::Xor:
-      return a != b;
-    case Op::Not:
-      return !a;
-    default:
-      std::abort();
-    }
-  }
-
-  uint64_t integers(const Instruction& instruction) const {
-    const uint64_t a = bits(operand(instruction, 0).integer);
-    const uint64_t b = instruction.operands.size() > 1 ? bits(operand(instruction, 1).integer) : 0;
-    switch (instruction.op) {
-    case Op::Add:
-      return a + b;
-    case Op::Sub:
-      return a - b;
-    case Op::Mul:
-      return a * b;
-    case Op::Neg:
-      return 0 - a;
-    case Op::And:
-      return a & b;
-    case Op::Or:
-      return a | b;
-    case Op::Xor:
-      return a ^ b;
-    case Op::Not:
-      return ~a;
-    default:
-      std::abort();
-    }
-  }
-
-  double numbers(const Instruction& instruction, unsigned i) const {
-    const double a = operand(instruction, 0).numbers[i];
-    const double b = instruction.operands.size() > 1 ? operand(instruction, 1).numbers[i] : 0;
-    switch (instruction.op) {
-    case Op::Add:
-      return a + b;
-    case Op::Sub:
-      return a - b;
-    case Op::Mul:
-      return a * b;
-    case Op::Div:
-      return a / b;
-    case Op::Neg:
-      return -a;
-    case Op::Fma:
-      return std::fma(a, b, operand(instruction, 2).numbers[i]);
-    default:
-      std::abort();
-    }
+    std::vector<Value> operands;
+    for (size_t i = 0; i < instruction.operands.size(); ++i)
+      operands.push_back(operand(instruction, i));
+    return evaluate(instruction, operands);
   }
 
   const Module& module_;

@@ -42,6 +42,7 @@ public:
   /// The fault of init, if any.
   const Outcome& init() const { return init_; }
   Outcome run(const std::string& entry, const std::vector<Value>& arguments) const;
+  const std::vector<std::vector<Value>>& globals() const { return globals_; }
 
 private:
   Outcome call(FunctionId function, const std::vector<Value>& arguments);
@@ -50,6 +51,9 @@ private:
   std::vector<std::vector<Value>> globals_;
   Outcome init_;
 };
+
+/// A constant, arithmetic, comparison, conversion or composition on its operands.
+Value evaluate(const Instruction& instruction, const std::vector<Value>& operands);
 
 /// One row of the library on its operands.
 std::vector<Value> call_native(const LibraryFunction& row, ValueType type, const std::vector<Value>& operands);
