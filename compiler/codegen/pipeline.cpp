@@ -23,7 +23,7 @@ namespace moonshade::codegen {
 namespace {
 
 /// A library function that comes to more instructions than this at all its calls is called rather than inlined.
-constexpr size_t kInlineBudget = 1000;
+constexpr size_t kInlineBudget = 200;
 
 /// While library functions are still calls of pure functions: merges equal calls, takes uniform ones out of the loop
 /// over blocks, drops those without a use.
