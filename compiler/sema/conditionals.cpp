@@ -83,6 +83,9 @@ Type Walker::or_expression(const BinaryExpr& expr) {
     return arm.conditional != nullptr && !is_unknown(arm.type) && !arm.type.is(ValueType::Boolean);
   };
   const bool conditional = std::ranges::any_of(arms, is_conditional);
+  // Which of the two forms it is depends on a type that is not inferred yet (or was an error).
+  const auto is_undecided = [](const Arm& arm) { return arm.conditional != nullptr && is_unknown(arm.type); };
+  if (!conditional && std::ranges::any_of(arms, is_undecided)) return unknown_type();
 
   ExpressionFact fact;
   fact.form = conditional ? OperatorForm::Conditional : OperatorForm::Logical;
@@ -95,7 +98,7 @@ Type Walker::or_expression(const BinaryExpr& expr) {
     std::optional<Type> type = Type{};
     for (const Arm& arm : arms) {
       if (arm.type.kind == Type::Kind::Function || arm.type.kind == Type::Kind::Library) {
-        error(Code::FunctionChoice, expr.span);
+        refuse_function(expr.span, {}, &expr);
         return unknown_type();
       }
       const Type before = *type;

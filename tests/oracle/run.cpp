@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <atomic>
 #include <filesystem>
 #include <fstream>
@@ -23,6 +24,7 @@ struct Settings {
   unsigned threads = std::max(1u, std::thread::hardware_concurrency());
   std::string out = "oracle-failures";
   uint64_t print = 0;
+  std::string replay;
 };
 
 struct Tally {
@@ -60,6 +62,25 @@ void work(const Settings& settings, std::atomic<uint64_t>& next, Tally& tally) {
   }
 }
 
+/// Runs each program of a folder in every variant: those that once failed.
+int replay(const std::string& folder) {
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    if (entry.path().extension() == ".lua") files.push_back(entry.path());
+  std::ranges::sort(files);
+  uint64_t failed = 0;
+  for (const std::filesystem::path& file : files) {
+    std::ifstream in(file);
+    const std::string text(std::istreambuf_iterator<char>(in), {});
+    const Outcome outcome = compare(text, all_variants(), 1);
+    if (outcome.verdict == Verdict::Agrees) continue;
+    ++failed;
+    std::cout << file.string() << ": " << outcome.detail << std::endl;
+  }
+  std::cout << files.size() << " programs, " << failed << " failures" << std::endl;
+  return failed || files.empty() ? 1 : 0;
+}
+
 } // namespace
 
 int main(int argc, char** argv) {
@@ -72,7 +93,10 @@ int main(int argc, char** argv) {
   app.add_option("--threads", settings.threads, "worker threads")->check(CLI::Range(1, 1024));
   app.add_option("--out", settings.out, "folder for failing programs");
   app.add_option("--print", settings.print, "only print the program of this seed");
+  app.add_option("--replay", settings.replay, "instead of generated programs: those of this folder")
+      ->check(CLI::ExistingDirectory);
   CLI11_PARSE(app, argc, argv);
+  if (!settings.replay.empty()) return replay(settings.replay);
   if (settings.print) {
     std::cout << generate_program(settings.print);
     return 0;
