@@ -154,6 +154,7 @@ ParsedOptions parse_options(int argc, char** argv) {
   app.footer(kExamples);
   app.set_help_flag("--help,-h", "show this help");
   app.set_version_flag("--version", version(), "show the version");
+  app.option_defaults()->take_last(); // of an option given twice, as compilers do
   app.add_option("scene", options.scene, "a Lua scene, or an OBJ model")->type_name("SCENE");
 
   app.add_option("-o", options.output, "image to write: png, exr, jpg, tif, hdr")->type_name("FILE")->group("Output");

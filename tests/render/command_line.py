@@ -1,0 +1,118 @@
+"""The command line of moonrender: exit statuses, messages, files. command_line.py MOONRENDER SCENES"""
+import json
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+moonrender, scenes = sys.argv[1], sys.argv[2]
+failures = 0
+
+
+def check(condition, what):
+    global failures
+    if not condition:
+        failures += 1
+        print(f"FAILED: {what}")
+
+
+def run(*args, status=0, error="", output=None):
+    done = subprocess.run([moonrender, *args], capture_output=True, text=True, timeout=120)
+    call = " ".join(args)
+    check(done.returncode == status, f"{call}: exit {done.returncode}, expected {status}\n{done.stderr}")
+    check(error in done.stderr, f"{call}: no '{error}' in: {done.stderr}")
+    if output is None:
+        check(done.stdout == "", f"{call}: standard output is not empty: {done.stdout[:200]}")
+    else:
+        check(output in done.stdout, f"{call}: no '{output}' on standard output: {done.stdout[:200]}")
+    return done
+
+
+def bytes_of(path):
+    with open(path, "rb") as file:
+        return file.read()
+
+
+with tempfile.TemporaryDirectory() as folder:
+    image = os.path.join(folder, "a.png")
+    exr = os.path.join(folder, "a.exr")
+    bumpy = os.path.join(scenes, "bumpy.scene.lua")
+    small = ["--size=40x30", "--spp=2"]
+
+    # Help and version are what was asked for: standard output, status 0.
+    help_text = run("--help", output="Examples:").stdout
+    for group in ("Output", "Rendering", "Shaders"):
+        check(group in help_text, f"--help has no group {group}")
+    run("--version", output="moonshade 0.1.0")
+
+    # Calls at fault.
+    run(status=2, error="no scene")
+    run(bumpy, status=2, error="no output")
+    run(bumpy, "-o", os.path.join(folder, "a.bmp"), status=2, error="the ending is none of")
+    run(bumpy, "-o", image, "--sise=1x1", status=2, error="sise")
+    run(bumpy, "-o", image, "--size=12", status=2, error="--size: expected WxH")
+    run(bumpy, "-o", image, "--size=0x5", status=2, error="--size lies between")
+    run(bumpy, "-o", image, "--size=99999999999x5", status=2, error="--size")
+    run(bumpy, "-o", image, "--spp=0", status=2, error="--spp lies between")
+    run(bumpy, "-o", image, "--spp=many", status=2, error="spp")
+    run(bumpy, "-o", image, "--integrator=pth", status=2, error="did you mean 'path'?")
+    run(bumpy, "-o", image, "--width=3", status=2, error="--width: expected")
+    run(bumpy, "-o", image, "-D", "scale=2", status=2, error="expected MATERIAL.NAME=VALUE")
+    run(bumpy, "-o", image, "--crop=0,0,4000,4000", status=2, error="--crop lies outside the image")
+    run(bumpy, "-o", os.path.join(folder, "none/a.png"), status=2, error="No such file")
+    for option in ("--noise=0.1", "--frames=1-2", "--fps=24", "--preview=x.png", "--tev", "--cache-dir=x", "--no-cache",
+                   "--bake", "--aov=depth", "--resume", "--checkpoint=5", "--integrator=sppm", "--integrator=irradiance"):
+        run(bumpy, "-o", image, option, status=2, error="not available yet")
+    check(os.listdir(folder) == [], f"files are left: {os.listdir(folder)}")
+
+    # Scenes at fault.
+    run(os.path.join(scenes, "none.lua"), "-o", image, status=1, error="none.lua: No such file")
+    run(os.path.join(scenes, "broken.scene.lua"), "-o", image, status=1, error="broken.lua:2:")
+    run(bumpy, "-o", image, "-D", "bumpy.scale=100", status=1, error="scale")
+    wrong = os.path.join(folder, "wrong.lua")
+    with open(wrong, "w") as file:
+        file.write("sphere{}\nlight{ type = 'sun', colour = 1 }\n")
+    run(wrong, "-o", image, status=1, error="wrong.lua:2: light: unknown field 'colour'; did you mean 'color'?")
+    os.remove(wrong)
+    check(os.listdir(folder) == [], f"files are left: {os.listdir(folder)}")
+
+    # Pictures: the same bits for any number of threads; another seed, another picture.
+    run(bumpy, "-o", exr, *small, "--threads=1")
+    first = bytes_of(exr)
+    stats = os.path.join(folder, "stats.json")
+    run(bumpy, "-o", image, *small, f"--stats={stats}")
+    numbers = json.load(open(stats))
+    for key in ("load", "compile", "render", "shade", "trace", "film"):
+        check(numbers["seconds"][key] >= 0, f"stats: seconds.{key}")
+    check(numbers["paths"] == 40 * 30 * 2, "stats: paths")
+    for key in ("rays", "shading_points", "peak_memory_bytes", "threads", "width"):
+        check(numbers[key] > 0, f"stats: {key}")
+    check(numbers["faults"] == 0, "stats: faults")
+    shot = bytes_of(image)
+    run(bumpy, "-o", image, *small, "--threads=3", "--width=4")
+    strip = lambda data: data[data.index(b"IDAT"):]  # the metadata hold the time
+    check(strip(bytes_of(image)) == strip(shot), "threads and width change the picture")
+    run(bumpy, "-o", image, *small, "--seed=5")
+    check(strip(bytes_of(image)) != strip(shot), "the seed changes nothing")
+    run(bumpy, "-o", image, *small, "--stats=-", output='"seconds"')
+    run(os.path.join(scenes, "strange.obj"), "-o", os.path.join(folder, "a.jpg"), *small)
+    run(os.path.join(scenes, "faulty.scene.lua"), "-o", image, *small, error="faulty.lua:")
+    run(bumpy, "-o", image, *small, "--time=0.001", "--spp=100000")
+    check(sorted(os.listdir(folder)) == ["a.exr", "a.jpg", "a.png", "stats.json"], f"files: {os.listdir(folder)}")
+    check(len(first) > 1000, "the EXR is empty")
+
+    # Ctrl-C: a whole image of the passes done, status 130, nothing left over.
+    os.remove(image)
+    process = subprocess.Popen([moonrender, bumpy, "-o", image, "--spp=1000000"], stderr=subprocess.PIPE, text=True)
+    time.sleep(1.5)
+    process.send_signal(signal.SIGINT)
+    message = process.communicate(timeout=60)[1]
+    check(process.returncode == 130, f"interrupted: exit {process.returncode}")
+    check("interrupted; the image has" in message, f"interrupted: {message}")
+    check(b"interrupted" in bytes_of(image), "the metadata do not say interrupted")
+    check(sorted(os.listdir(folder)) == ["a.exr", "a.jpg", "a.png", "stats.json"], f"files: {os.listdir(folder)}")
+
+print("ok" if failures == 0 else f"{failures} failures")
+sys.exit(failures != 0)

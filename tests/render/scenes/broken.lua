@@ -1,0 +1,3 @@
+function color(p)
+  return p.x .. "no"
+end

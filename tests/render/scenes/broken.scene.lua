@@ -1,0 +1,1 @@
+sphere { material = material { name = "broken", shader = "broken.lua" } }
