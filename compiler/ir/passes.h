@@ -24,6 +24,9 @@ void forward_variables(Function& function);
 /// Ifs that only choose between cheap values become selects. (select.cpp)
 void convert_ifs_to_selects(Function& function);
 
+/// Of equal computations, the later takes the value of the earlier. (share_values.cpp)
+void share_values(Function& function);
+
 /// Values without a use, stores to variables that are never loaded, unused variables. (dead_code.cpp)
 void remove_dead_code(Function& function);
 

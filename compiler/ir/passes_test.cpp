@@ -151,6 +151,42 @@ TEST(ForwardVariables, CapturesMayBeOneVariable) {
   EXPECT_THAT(text_of(module), HasSubstr("load $0.x"));
 }
 
+TEST(ShareValues, EqualComputationsAreDoneOnce) {
+  const LibraryFunction& noise = library_overloads("noise")[0];
+  EXPECT_EQ(after(share_values, {Number, Boolean}, {Number, Number, Number},
+                  [&](Builder& b) {
+                    const ValueId first = b.call_library(noise, Number, {b.argument(0)});
+                    const VariableId v = b.variable("v", Number);
+                    b.if_else(b.argument(1), b.block([&] { b.store(v, b.unary(Op::Neg, b.argument(0))); }),
+                              b.block([&] { b.store(v, b.call_library(noise, Number, {b.argument(0)})); }));
+                    const ValueId negated = b.unary(Op::Neg, b.argument(0));
+                    b.return_values({first, b.load(v), negated});
+                  }),
+            R"(
+function f(a: number, b: boolean) -> number, number, number {
+  var $0.v: number
+  %0: number = argument 0
+  %1: number = call_library noise_number(%0)
+  %2: boolean = argument 1
+  if %2 {
+    %3: number = neg %0
+    store $0.v, %3
+  } else {
+    store $0.v, %1
+  }
+  %4: number = neg %0
+  %5: number = load $0.v
+  return %1, %5, %4
+}
+)");
+}
+
+TEST(ShareValues, ZerosOfBothSignsAreTwo) {
+  EXPECT_THAT(
+      after(share_values, {}, {Number, Number}, [](Builder& b) { b.return_values({b.number(0.0), b.number(-0.0)}); }),
+      HasSubstr("return %0, %1"));
+}
+
 TEST(Select, CheapIfsBecomeSelects) {
   EXPECT_EQ(after(convert_ifs_to_selects, {Number, Boolean}, {Number},
                   [](Builder& b) {

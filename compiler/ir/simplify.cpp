@@ -10,11 +10,13 @@ void simplify(Function& function) {
   for (int round = 0; round < 3; ++round) {
     fold_constants(function);
     forward_variables(function);
+    share_values(function);
     convert_ifs_to_selects(function);
     remove_dead_code(function);
   }
   forward_variables(function);
   fold_constants(function);
+  share_values(function);
   remove_dead_code(function);
 }
 

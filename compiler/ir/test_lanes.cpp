@@ -143,7 +143,8 @@ private:
     const auto at = [&](size_t lane) {
       std::vector<Value> operands;
       for (const ValueId operand : instruction.operands) {
-        promise(varying || values_[operand].size() == 1, "a uniform value has a varying operand");
+        promise(varying || values_[operand].size() == 1 || instruction.op == Op::Result,
+                "a uniform value has a varying operand");
         operands.push_back(of_lane(values_[operand], lane));
       }
       if (instruction.op == Op::LoadGlobal) return machine_.globals[instruction.index][0];

@@ -158,6 +158,22 @@ TEST(Uniformity, ACounterSetOnceForSeveralVaryingLoopsIsVarying) {
   EXPECT_TRUE(a.variable("n"));
 }
 
+TEST(Uniformity, WhatAnEarlierIterationStoredForOtherLanesIsNotUniform) {
+  // Each lane reads what it stored when it was here last; other lanes were here in between.
+  const Analysed a = analyse([](Builder& b, const Inputs& in) {
+    const VariableId v = b.variable("v", Number);
+    const LabelId label = b.label();
+    b.loop(label, b.block([&] {
+      b.if_else(in.varying, b.block([&] {
+        b.fault(b.compare(Op::Lt, b.load(v), b.number(0)), FaultCode::Assert);
+        b.store(v, b.number(1));
+      }));
+      b.if_else(in.uniform, b.block([&] { b.break_to(label); }));
+    }));
+  });
+  EXPECT_TRUE(a.variable("v"));
+}
+
 TEST(Uniformity, ALoopInsideAVaryingIfIsUniformForItsLanes) {
   const Analysed a = analyse([](Builder& b, const Inputs& in) {
     const VariableId n = b.variable("n", Integer);
