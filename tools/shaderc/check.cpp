@@ -1,6 +1,7 @@
 // Reading and checking one file, and printing what the checks found.
 #include "tools/shaderc/check.h"
 
+#include "tools/support/exit_status.h"
 #include "tools/support/files.h"
 
 #include <nlohmann/json.hpp>
@@ -22,6 +23,17 @@ void report_unreadable(const std::string& path, const std::string& error, Report
   const FileId file = sources.add(path, "");
   diagnostics.report(DiagnosticCode::CannotReadFile, Span{file, 0, 0}, {path, error});
   reporter.add(diagnostics, sources);
+}
+
+/// The message, where all that is wrong is an entry that the call names and the shader has not.
+std::string only_missing_entry(const Diagnostics& diagnostics) {
+  std::string message;
+  for (const Diagnostic* diagnostic : diagnostics.sorted()) {
+    if (diagnostic->severity != Severity::Error) continue;
+    if (diagnostic->code != DiagnosticCode::UnknownEntry) return "";
+    message = diagnostic->message;
+  }
+  return message;
 }
 
 } // namespace
@@ -48,18 +60,21 @@ void Reporter::finish() {
   json_.clear();
 }
 
-std::unique_ptr<CheckedShader> check_file(const std::string& path, const Options& options, Reporter& reporter) {
+CheckedFile check_file(const std::string& path, const Options& options, Reporter& reporter) {
   tools::FileText file = tools::read_file(path);
   if (!file.error.empty()) {
     report_unreadable(path, file.error, reporter);
-    return nullptr;
+    return {nullptr, tools::kInputAtFault};
   }
   const auto start = Clock::now();
   auto shader = std::make_unique<CheckedShader>(path, std::move(file.text), options.compile.entries);
   const std::chrono::duration<double, std::milli> time = Clock::now() - start;
-  reporter.add(shader->diagnostics(), shader->sources());
+  const std::string missing_entry = only_missing_entry(shader->diagnostics());
+  if (missing_entry.empty()) reporter.add(shader->diagnostics(), shader->sources());
   if (options.time_report) std::fprintf(stderr, "%s: check %.3f ms\n", path.c_str(), time.count());
-  return shader;
+  if (!missing_entry.empty()) return {nullptr, call_error("--entry: " + missing_entry)};
+  const int status = shader->ok() ? tools::kDone : tools::kInputAtFault;
+  return {std::move(shader), status};
 }
 
 } // namespace moonshade::shaderc

@@ -23,7 +23,11 @@ private:
   SarifLog sarif_;
 };
 
-/// The file, checked, its diagnostics reported. Null where it could not be read (which is reported, too).
-std::unique_ptr<CheckedShader> check_file(const std::string& path, const Options& options, Reporter& reporter);
+struct CheckedFile {
+  std::unique_ptr<CheckedShader> shader; ///< null where the file could not be read
+  int status = 0;                        ///< of the program, as far as this file goes
+};
+/// Reads and checks the file and reports what is wrong. An --entry that the shader does not have is the call's fault.
+CheckedFile check_file(const std::string& path, const Options& options, Reporter& reporter);
 
 } // namespace moonshade::shaderc

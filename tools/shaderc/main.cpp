@@ -6,6 +6,7 @@
 #include "tools/support/exit_status.h"
 #include "tools/support/interrupt.h"
 
+#include <algorithm>
 #include <exception>
 #include <iostream>
 
@@ -19,11 +20,10 @@ int check_files(const Options& options, Reporter& reporter) {
   int status = tools::kDone;
   std::vector<std::string> descriptions;
   for (const std::string& file : options.files) {
-    const auto shader = check_file(file, options, reporter);
-    if (!shader || !shader->ok())
-      status = tools::kInputAtFault;
-    else if (options.describe)
-      descriptions.push_back(describe(file, shader->info()));
+    const CheckedFile checked = check_file(file, options, reporter);
+    status = std::max(status, checked.status);
+    if (options.describe && checked.status == tools::kDone)
+      descriptions.push_back(describe(file, checked.shader->info()));
   }
   if (!options.describe || status != tools::kDone) return status;
   if (descriptions.size() == 1) {
@@ -43,13 +43,14 @@ int work(const Options& options) {
   if (!options.emit && !options.run) {
     status = check_files(options, reporter);
   } else {
-    const auto shader = check_file(options.files[0], options, reporter);
+    const CheckedFile checked = check_file(options.files[0], options, reporter);
     reporter.finish(); // before anything that the run has to say
-    if (!shader) return tools::kInputAtFault;
+    status = checked.status;
+    if (!checked.shader) return status;
     if (options.emit)
-      status = emit_stage(*shader, options);
-    else
-      status = shader->ok() ? run_shader(*shader, options) : int(tools::kInputAtFault);
+      status = emit_stage(*checked.shader, options);
+    else if (status == tools::kDone)
+      status = run_shader(*checked.shader, options);
   }
   reporter.finish();
   return status;
