@@ -167,6 +167,11 @@ TEST(Accepted, EndlessLoopsAndErrorsNeedNoReturn) {
                           "function height(p) if p.x > 0 then return 1 else fail() end end"));
 }
 
+TEST(Accepted, AssertGivesWhatItGets) {
+  EXPECT_ACCEPTED(Checked("function height(p)\n  local ok = assert(p.x > 0, 'outside')\n  assert(ok)\n"
+                          "  return ok and 1 or 0\nend"));
+}
+
 TEST(Accepted, AssignedOnEveryPath) {
   EXPECT_ACCEPTED(Checked("function height(p)\n  local x\n  if p.x > 0 then x = 1 elseif p.x < 0 then x = 2 else x = 3 "
                           "end\n  local y\n  repeat y = x until y > 0\n  local z\n  local function set() z = 1 end\n"

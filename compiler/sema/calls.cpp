@@ -26,8 +26,7 @@ TypeList Walker::arguments(std::span<Expr* const> args) {
   TypeList list = expression_list(args);
   for (size_t i = 0; i < list.types.size(); ++i) {
     Type& type = list.types[i];
-    if (type.kind != Type::Kind::Function && type.kind != Type::Kind::Library && type.kind != Type::Kind::None)
-      continue;
+    if (!is_function(type) && type.kind != Type::Kind::None) continue;
     const Expr& arg = *args[std::min(i, args.size() - 1)];
     if (type.kind != Type::Kind::None) error(Code::NotAvailableYet, arg.span, {"functions as arguments are"});
     type = unknown_type();
@@ -267,10 +266,12 @@ TypeList Walker::assert_or_error(const CallExpr& expr, bool is_assert) {
   if (types.size() > message + 1)
     error(Code::TooManyArguments, expr.args[message + 1]->span, {name, std::to_string(message + 1)});
   ExpressionFact fact;
-  fact.type = none_type();
+  fact.type = is_assert && !types.empty() ? types[0] : none_type();
+  if (is_assert) fact.results = types; // as Lua, it gives what it gets
   fact.call = is_assert ? CallKind::Assert : CallKind::Error;
+  const TypeList results{fact.results, false};
   record(expr, std::move(fact));
-  return {};
+  return results;
 }
 
 } // namespace moonshade::sema

@@ -33,7 +33,7 @@ Program check(const syntax::Chunk& chunk, const Options& options, Diagnostics& d
   Program program;
   program.chunk = &chunk;
   Context context(chunk, diagnostics, program);
-  context.globals = collect_globals(chunk, diagnostics);
+  context.globals = collect_globals(chunk);
   Work* top = context.find_or_make(chunk.main, nullptr, {}, chunk.main->span);
   std::vector<EntryPlan> plans = plan_entries(context, options.entries);
 

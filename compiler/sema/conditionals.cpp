@@ -3,7 +3,6 @@
 #include "compiler/sema/walker.h"
 
 #include <algorithm>
-#include <utility>
 
 namespace moonshade::sema {
 
@@ -36,14 +35,18 @@ Type Walker::and_expression(const BinaryExpr& expr) {
   return record(expr, std::move(fact));
 }
 
-namespace {
-
 /// One part of a chain of `or`s.
-struct Arm {
+struct Walker::Arm {
   const Expr* expr;
   const BinaryExpr* conditional; ///< as `c and a`; null otherwise
   Type type;                     ///< of a, or of the whole
+
+  bool is_conditional() const { return conditional != nullptr && !is_unknown(type) && !type.is(ValueType::Boolean); }
+  /// Which of the two forms it is depends on a type that is not inferred yet (or was an error).
+  bool is_undecided() const { return conditional != nullptr && is_unknown(type); }
 };
+
+namespace {
 
 /// The `or`s of a chain, from the outermost inwards: each is the left side of the one before.
 std::vector<const BinaryExpr*> chain_of(const BinaryExpr& outermost) {
@@ -55,79 +58,40 @@ std::vector<const BinaryExpr*> chain_of(const BinaryExpr& outermost) {
   }
 }
 
-std::vector<Arm> arms_of(const std::vector<const BinaryExpr*>& chain) {
-  std::vector<Arm> arms = {{chain.back()->left, nullptr, {}}};
+/// The parts of a chain, from the left; the last one is no condition.
+std::vector<const Expr*> parts_of(const std::vector<const BinaryExpr*>& chain) {
+  std::vector<const Expr*> parts = {chain.back()->left};
   for (size_t i = chain.size(); i-- > 0;)
-    arms.push_back({chain[i]->right, nullptr, {}});
-  for (size_t i = 0; i + 1 < arms.size(); ++i) {
-    const auto* inner = try_as<BinaryExpr>(&strip_parentheses(*arms[i].expr));
-    if (inner != nullptr && inner->op == BinaryOp::And) arms[i].conditional = inner;
-  }
-  return arms;
+    parts.push_back(chain[i]->right);
+  return parts;
+}
+
+const BinaryExpr* as_and(const Expr& expr) {
+  const auto* inner = try_as<BinaryExpr>(&strip_parentheses(expr));
+  return inner != nullptr && inner->op == BinaryOp::And ? inner : nullptr;
 }
 
 } // namespace
 
 Type Walker::or_expression(const BinaryExpr& expr) {
   const std::vector<const BinaryExpr*> chain = chain_of(expr);
-  std::vector<Arm> arms = arms_of(chain);
+  std::vector<Arm> arms;
+  for (const Expr* part : parts_of(chain))
+    arms.push_back({part, as_and(*part), {}});
+  arms.back().conditional = nullptr;
   for (Arm& arm : arms) {
-    if (arm.conditional != nullptr) {
-      condition(*arm.conditional->left);
-      arm.type = expression(*arm.conditional->right);
-    } else {
-      arm.type = expression(*arm.expr);
-    }
+    if (arm.conditional != nullptr) condition(*arm.conditional->left);
+    arm.type = expression(arm.conditional != nullptr ? *arm.conditional->right : *arm.expr);
   }
-  const auto is_conditional = [](const Arm& arm) {
-    return arm.conditional != nullptr && !is_unknown(arm.type) && !arm.type.is(ValueType::Boolean);
-  };
-  const bool conditional = std::ranges::any_of(arms, is_conditional);
-  // Which of the two forms it is depends on a type that is not inferred yet (or was an error).
-  const auto is_undecided = [](const Arm& arm) { return arm.conditional != nullptr && is_unknown(arm.type); };
-  if (!conditional && std::ranges::any_of(arms, is_undecided)) return unknown_type();
+  const bool is_conditional = std::ranges::any_of(arms, &Arm::is_conditional);
+  if (!is_conditional && std::ranges::any_of(arms, &Arm::is_undecided)) return unknown_type();
+  const std::optional<Type> type = is_conditional ? conditional_type(expr, arms) : logical_type(arms);
+  if (!type) return unknown_type();
 
   ExpressionFact fact;
-  fact.form = conditional ? OperatorForm::Conditional : OperatorForm::Logical;
-  if (conditional) {
-    for (size_t i = 0; i + 1 < arms.size(); ++i)
-      if (!is_conditional(arms[i]) && !(is_unknown(arms[i].type))) {
-        type_error(Code::ConditionalArm, arms[i].expr->span);
-        return unknown_type();
-      }
-    std::optional<Type> type = Type{};
-    for (const Arm& arm : arms) {
-      if (arm.type.kind == Type::Kind::Function || arm.type.kind == Type::Kind::Library) {
-        refuse_function(expr.span, {}, &expr);
-        return unknown_type();
-      }
-      const Type before = *type;
-      if (type = join(before, arm.type); !type) {
-        type_error(Code::ConditionalTypes, expr.span, {describe(before), describe(arm.type)});
-        return unknown_type();
-      }
-    }
-    if (type->kind == Type::Kind::String) {
-      error(Code::NotAvailableYet, expr.span, {"a conditional between strings is"});
-      return unknown_type();
-    }
-    fact.type = *type;
-  } else {
-    bool fits = true;
-    for (size_t i = 0; i < arms.size(); ++i) {
-      const Type& type = arms[i].type;
-      if (is_unknown(type) || type.is(ValueType::Boolean)) continue;
-      if (!std::exchange(fits, false)) continue; // the first one says it
-      if (i + 1 < arms.size()) {
-        require_condition(*arms[i].expr, type);
-      } else {
-        type_error(Code::OrOperand, arms[i].expr->span, {describe(type)});
-      }
-    }
-    if (!fits) return unknown_type();
-    fact.type = boolean_type();
-  }
-  fact.operand_type = fact.type.value;
+  fact.form = is_conditional ? OperatorForm::Conditional : OperatorForm::Logical;
+  fact.type = *type;
+  fact.operand_type = type->value;
   for (const Arm& arm : arms) {
     if (arm.conditional == nullptr) continue;
     record(*arm.conditional, fact);
@@ -137,6 +101,44 @@ Type Walker::or_expression(const BinaryExpr& expr) {
   for (size_t i = 1; i < chain.size(); ++i)
     record(*chain[i], fact);
   return record(expr, std::move(fact));
+}
+
+/// The common type of the results; nothing where they were refused.
+std::optional<Type> Walker::conditional_type(const BinaryExpr& expr, const std::vector<Arm>& arms) {
+  for (size_t i = 0; i + 1 < arms.size(); ++i)
+    if (!arms[i].is_conditional() && !is_unknown(arms[i].type)) {
+      type_error(Code::ConditionalArm, arms[i].expr->span);
+      return std::nullopt;
+    }
+  Type type;
+  for (const Arm& arm : arms) {
+    if (is_function(arm.type)) {
+      refuse_function(expr.span, {}, &expr);
+      return std::nullopt;
+    }
+    const std::optional<Type> joined = join(type, arm.type);
+    if (!joined) {
+      type_error(Code::ConditionalTypes, expr.span, {describe(type), describe(arm.type)});
+      return std::nullopt;
+    }
+    type = *joined;
+  }
+  if (type.kind != Type::Kind::String) return type;
+  error(Code::NotAvailableYet, expr.span, {"a conditional between strings is"});
+  return std::nullopt;
+}
+
+/// `or` between booleans; the first operand that is none is refused.
+std::optional<Type> Walker::logical_type(const std::vector<Arm>& arms) {
+  const auto is_wrong = [](const Arm& arm) { return !is_unknown(arm.type) && !arm.type.is(ValueType::Boolean); };
+  const auto wrong = std::ranges::find_if(arms, is_wrong);
+  if (wrong == arms.end()) return boolean_type();
+  if (wrong + 1 != arms.end()) {
+    require_condition(*wrong->expr, wrong->type);
+  } else {
+    type_error(Code::OrOperand, wrong->expr->span, {describe(wrong->type)});
+  }
+  return std::nullopt;
 }
 
 } // namespace moonshade::sema

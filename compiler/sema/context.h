@@ -116,6 +116,8 @@ struct Context {
 
   std::set<std::pair<uint32_t, uint32_t>> reported;         ///< spans, so that each place is reported once
   std::set<std::pair<const void*, const void*>> recursions; ///< reported ones, by caller and callee
+  /// Variables (syntax::Local or Global) whose values depend on the shader's parameters.
+  std::set<const void*> from_parameters;
   std::unordered_map<std::string, unsigned> name_counts;
   Diagnostic silent; ///< takes the notes of messages that are not reported
 

@@ -2,8 +2,6 @@
 #include "compiler/sema/names.h"
 #include "compiler/sema/walker.h"
 
-#include <algorithm>
-
 namespace moonshade::sema {
 
 using namespace syntax;
@@ -246,7 +244,6 @@ std::string Walker::suggest_visible(std::string_view name) {
     candidates.push_back(global_name);
   const std::vector<std::string_view> library = library_names("");
   candidates.insert(candidates.end(), library.begin(), library.end());
-  std::ranges::sort(candidates); // hash tables have no order of their own
   return suggestion(name, candidates);
 }
 

@@ -10,7 +10,7 @@ namespace {
 
 class Collector {
 public:
-  Collector(Globals& globals, Diagnostics& diagnostics) : globals_(globals), diagnostics_(diagnostics) {}
+  explicit Collector(Globals& globals) : globals_(globals) {}
 
   void block(const Block& block, bool certain) {
     for (const Stat* stat : block.stats)
@@ -18,7 +18,7 @@ public:
   }
 
 private:
-  void define(const NameExpr& target, const Function* function, Span span, bool certain) {
+  void define(const NameExpr& target, const Function* function, bool certain) {
     if (!target.is_global() || target.environment != nullptr) return;
     if (function_depth_ != 0) {
       globals_.assigned_inside.insert(target.name);
@@ -30,18 +30,12 @@ private:
       global.name = target.name;
       global.definition = target.span;
       global.function = function;
+      global.in_branch = !certain;
+      global.is_broken = function != nullptr && !certain;
       if (function != nullptr) globals_.functions.push_back(&global);
-      if (function != nullptr && !certain) refuse(global, span);
     } else if (function != nullptr || global.function != nullptr) {
-      refuse(global, span);
+      global.is_broken = true;
     }
-  }
-
-  void refuse(Global& global, Span span) {
-    Diagnostic& diagnostic = diagnostics_.report(DiagnosticCode::FunctionNotKnown, span, {std::string(global.name)});
-    if (!(span == global.definition))
-      diagnostic.note(DiagnosticCode::NoteFirstDefinition, global.definition, {std::string(global.name)});
-    global.is_broken = true;
   }
 
   void function(const Function& function) {
@@ -99,7 +93,7 @@ private:
         continue;
       }
       const Expr* value = i < stat.values.size() ? stat.values[i] : nullptr;
-      define(*name, try_as<Function>(value), name->span, certain);
+      define(*name, try_as<Function>(value), certain);
     }
   }
 
@@ -136,7 +130,7 @@ private:
                     },
                     [&](const FunctionStat& definition) {
                       if (const auto* name = try_as<NameExpr>(definition.target)) {
-                        define(*name, definition.function, name->span, certain);
+                        define(*name, definition.function, certain);
                       } else {
                         expression(definition.target);
                       }
@@ -156,16 +150,15 @@ public:
 
 private:
   Globals& globals_;
-  Diagnostics& diagnostics_;
   unsigned function_depth_ = 0;
   std::vector<std::string_view> used_;
 };
 
 } // namespace
 
-Globals collect_globals(const Chunk& chunk, Diagnostics& diagnostics) {
+Globals collect_globals(const Chunk& chunk) {
   Globals globals;
-  Collector collector(globals, diagnostics);
+  Collector collector(globals);
   collector.block(*chunk.main->body, true);
   collector.mark_used();
   return globals;

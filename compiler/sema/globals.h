@@ -25,7 +25,8 @@ struct Global {
   const syntax::Function* function = nullptr;
   Span definition{};      ///< the first one
   bool is_used = false;   ///< some expression names it
-  bool is_broken = false; ///< defined several times, or in a branch: reported, stands for nothing
+  bool in_branch = false; ///< the first definition stands in a branch or a loop
+  bool is_broken = false; ///< a function, but defined several times or in a branch: stands for nothing
   Variable variable;      ///< of a variable
   uint32_t slot = ~0u;    ///< of a variable: index in Program::globals
 };
@@ -43,7 +44,8 @@ struct Globals {
   }
 };
 
-/// Reports globals that stand for a function but are defined more than once, or only on some paths.
-Globals collect_globals(const syntax::Chunk& chunk, Diagnostics& diagnostics);
+/// Globals that stand for a function but are defined more than once, or only on some paths, are marked as broken; the
+/// walk refuses their definitions.
+Globals collect_globals(const syntax::Chunk& chunk);
 
 } // namespace moonshade::sema

@@ -158,15 +158,17 @@ std::optional<std::string_view> nearest(std::string_view name, std::span<const s
   constexpr size_t kLongest = 64;
   if (name.size() > kLongest || name.size() < 2) return std::nullopt;
   std::optional<std::string_view> best;
-  unsigned best_distance = static_cast<unsigned>(std::max<size_t>(1, name.size() / 3)) + 1;
+  const auto most = static_cast<unsigned>(std::max<size_t>(1, name.size() / 3));
+  unsigned best_distance = most;
   for (const std::string_view candidate : candidates) {
     if (candidate.size() > kLongest || candidate == name) continue;
     const size_t difference = std::max(candidate.size(), name.size()) - std::min(candidate.size(), name.size());
-    if (difference >= best_distance) continue;
-    if (const unsigned distance = edit_distance(name, candidate); distance < best_distance) {
-      best = candidate;
-      best_distance = distance;
-    }
+    if (difference > best_distance) continue;
+    const unsigned distance = edit_distance(name, candidate);
+    if (distance > most || distance > best_distance) continue;
+    // Of equally near ones the first of the alphabet: candidates come from hash tables, which have no order.
+    if (distance < best_distance || !best || candidate < *best) best = candidate;
+    best_distance = distance;
   }
   return best;
 }

@@ -210,9 +210,8 @@ Type Walker::equality(const BinaryExpr& expr, const Type& left, const Type& righ
     return record(expr, std::move(fact));
   }
   const std::string op(spelling_of(expr.op));
-  if (left.kind == Type::Kind::Function || left.kind == Type::Kind::Library || right.kind == Type::Kind::Function ||
-      right.kind == Type::Kind::Library) {
-    const bool at_left = left.kind == Type::Kind::Function || left.kind == Type::Kind::Library;
+  if (is_function(left) || is_function(right)) {
+    const bool at_left = is_function(left);
     type_error(Code::OperandType, (at_left ? expr.left : expr.right)->span, {op, describe(at_left ? left : right)});
   } else {
     type_error(Code::OperandsDoNotFit, expr.span, {op, describe(left), describe(right)});

@@ -116,33 +116,34 @@ private:
 
 } // namespace
 
+/// Names in constants mean the library's things unless the shader defines them.
+std::string_view Walker::constant_name(const Expr& expr) {
+  const auto is_library = [&](const NameExpr* name) {
+    return name != nullptr && name->is_global() && context_.globals.find(name->name) == nullptr;
+  };
+  if (const auto* name = try_as<NameExpr>(&expr))
+    return is_library(name) && is_built_in(name->name) ? name->name : std::string_view{};
+  const auto* index = try_as<IndexExpr>(&expr);
+  if (index == nullptr) return {};
+  const auto* table = try_as<NameExpr>(index->object);
+  const auto* key = try_as<StringExpr>(index->key);
+  if (!is_library(table) || table->name != "math" || key == nullptr) return {};
+  const LibraryConstant* constant = find_library_constant("math." + std::string(key->value));
+  return constant != nullptr ? constant->name : std::string_view{};
+}
+
 TypeList Walker::parameter(const CallExpr& expr) {
   const auto unknown = TypeList{{}, true};
   if (!at_top_level() || loop_depth_ != 0) {
     error(Code::ParameterPlace, expr.span);
     return unknown;
   }
-  // Names in constants mean the library's things unless the shader defines them.
-  const LibraryNameOf library_name = [&](const Expr& at) -> std::string_view {
-    const auto* name = try_as<NameExpr>(&at);
-    if (name != nullptr)
-      return name->is_global() && context_.globals.find(name->name) == nullptr && is_built_in(name->name)
-                 ? name->name
-                 : std::string_view{};
-    const auto* index = try_as<IndexExpr>(&at);
-    const auto* table = index != nullptr ? try_as<NameExpr>(index->object) : nullptr;
-    const auto* key = index != nullptr ? try_as<StringExpr>(index->key) : nullptr;
-    if (table == nullptr || key == nullptr || !table->is_global() || table->name != "math" ||
-        context_.globals.find("math") != nullptr)
-      return {};
-    const LibraryConstant* constant = find_library_constant("math." + std::string(key->value));
-    return constant != nullptr ? constant->name : std::string_view{};
-  };
   if (expr.args.size() < 2) {
     error(Code::MissingArgument, expr.span,
           {std::to_string(expr.args.size() + 1), "param", expr.args.empty() ? "name" : "default"});
     return unknown;
   }
+  const LibraryNameOf library_name = [&](const Expr& at) { return constant_name(at); };
   const auto name_value = evaluate_constant(*expr.args[0], library_name);
   const auto* name = name_value ? std::get_if<std::string>(&*name_value) : nullptr;
   if (name == nullptr) error(Code::ParameterName, expr.args[0]->span);
@@ -163,20 +164,69 @@ TypeList Walker::parameter(const CallExpr& expr) {
   if (expr.args.size() > 2) MetadataReader(context_, info, library_name).read(*expr.args[2]);
   const CheckedConstant checked = check_override(info, *value);
   if (!checked.error.empty()) error(Code::ParameterRange, expr.args[1]->span, {checked.error});
-  if (context_.program.info.parameters.size() >= kMaxParameters)
-    context_.too_large(expr.span, "the shader has too many parameters", kMaxParameters);
-  for (const ParameterInfo& other : context_.program.info.parameters)
-    if (other.name == info.name)
-      error(Code::ParameterTwice, expr.args[0]->span, {info.name})
-          .note(Code::NoteFirstDefinition, other.span, {info.name});
   ExpressionFact fact;
   fact.type = type;
   fact.results = {type};
   fact.call = CallKind::Parameter;
-  fact.index = static_cast<uint32_t>(context_.program.info.parameters.size());
-  context_.program.info.parameters.push_back(std::move(info));
+  fact.index = add_parameter(expr, std::move(info));
   record(expr, std::move(fact));
   return {{type}, false};
+}
+
+/// Its index in the program's list; a name that is taken is refused.
+uint32_t Walker::add_parameter(const CallExpr& expr, ParameterInfo info) {
+  std::vector<ParameterInfo>& parameters = context_.program.info.parameters;
+  if (parameters.size() >= kMaxParameters)
+    context_.too_large(expr.span, "the shader has too many parameters", kMaxParameters);
+  for (const ParameterInfo& other : parameters)
+    if (other.name == info.name)
+      error(Code::ParameterTwice, expr.args[0]->span, {info.name})
+          .note(Code::NoteFirstDefinition, other.span, {info.name});
+  parameters.push_back(std::move(info));
+  return static_cast<uint32_t>(parameters.size() - 1);
+}
+
+// ---- what depends on parameters ------------------------------------------------------------------------------------
+
+bool Walker::depends_on_parameter(const Expr& expr) const {
+  const auto any = [&](std::span<Expr* const> exprs) {
+    return std::ranges::any_of(exprs, [&](const Expr* each) { return depends_on_parameter(*each); });
+  };
+  return visit(expr,
+               Overloaded{
+                   [&](const NameExpr& name) {
+                     if (name.local != nullptr) return context_.from_parameters.contains(name.local);
+                     if (name.name == "param") return true;
+                     const Global* global = context_.globals.find(name.name);
+                     return global != nullptr && context_.from_parameters.contains(global);
+                   },
+                   [&](const IndexExpr& index) { return depends_on_parameter(*index.object); },
+                   [&](const CallExpr& call) { return depends_on_parameter(*call.callee) || any(call.args); },
+                   [&](const MethodCallExpr& call) { return depends_on_parameter(*call.object) || any(call.args); },
+                   [&](const ParenExpr& paren) { return depends_on_parameter(*paren.inner); },
+                   [&](const UnaryExpr& unary) { return depends_on_parameter(*unary.operand); },
+                   [&](const BinaryExpr& binary) {
+                     return depends_on_parameter(*binary.left) || depends_on_parameter(*binary.right);
+                   },
+                   [](const auto&) { return false; },
+               });
+}
+
+void Walker::trace_parameter(const void* variable, const Expr* given) {
+  if (parameter_branches_ == 0 && (given == nullptr || !depends_on_parameter(*given))) return;
+  if (context_.from_parameters.insert(variable).second) context_.changed = true;
+}
+
+void Walker::refuse_function(Span span, std::string_view name, const Expr* given) {
+  if (!context_.report) return;
+  const std::string text = name.empty() ? "this" : "'" + std::string(name) + "'";
+  if (parameter_branches_ != 0 || (given != nullptr && depends_on_parameter(*given))) {
+    error(Code::DependsOnParameter, span, {text});
+  } else if (name.empty()) {
+    error(Code::FunctionChoice, span);
+  } else {
+    error(Code::FunctionNotKnown, span, {std::string(name)});
+  }
 }
 
 } // namespace moonshade::sema

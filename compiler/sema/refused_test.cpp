@@ -115,7 +115,12 @@ INSTANTIATE_TEST_SUITE_P(
            Refusal{"function height(p)\n  local x\n  while p.x > 0 do x = 1 break end\n  return $x\nend",
                    {"unassigned-variable"}},
            Refusal{"function f(x) return x end\nfunction $f(x) return 2 end", {"function-not-known"}},
-           Refusal{"if param('a', true) then function $f() return 1 end end", {"function-not-known"}},
+           Refusal{"if param('a', true) then function $f() return 1 end end", {"depends-on-parameter"}},
+           Refusal{"for i = 1, 2 do function $f() return 1 end end", {"function-not-known"}},
+           Refusal{"local fancy = param('fancy', true)\nlocal much = fancy and 2 or 1\nlocal f\n"
+                   "if much > 1 then\n  $f = function(x) return x end\nelse\n  $f = sin\nend",
+                   {"depends-on-parameter", "depends-on-parameter"}},
+           Refusal{"local fancy = param('fancy', true)\nlocal f = $fancy and sin or cos", {"depends-on-parameter"}},
            Refusal{"function height(p)\n  local f\n  $f = function() return 1 end\n  return f()\nend",
                    {"function-not-known"}},
            Refusal{"function height(p)\n  local f = function() return 1 end\n  $f = function() return 2 end\n"

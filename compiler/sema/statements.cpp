@@ -44,8 +44,7 @@ void Walker::statement(const Stat& stat) {
                   [&](const DoStat& node) { block(*node.body); },
                   [&](const WhileStat& node) {
                     ++loop_depth_;
-                    condition(*node.condition);
-                    block(*node.body);
+                    branch(*node.condition, *node.body);
                     --loop_depth_;
                   },
                   [&](const RepeatStat& node) {
@@ -55,11 +54,14 @@ void Walker::statement(const Stat& stat) {
                     --loop_depth_;
                   },
                   [&](const IfStat& node) {
-                    for (const IfClause& clause : node.clauses) {
-                      condition(*clause.condition);
-                      block(*clause.body);
-                    }
-                    if (node.else_body != nullptr) block(*node.else_body);
+                    for (const IfClause& clause : node.clauses)
+                      branch(*clause.condition, *clause.body);
+                    if (node.else_body == nullptr) return;
+                    const bool depends = std::ranges::any_of(
+                        node.clauses, [&](const IfClause& clause) { return depends_on_parameter(*clause.condition); });
+                    parameter_branches_ += depends;
+                    block(*node.else_body);
+                    parameter_branches_ -= depends;
                   },
                   [&](const NumericForStat& node) { numeric_for(node); },
                   [&](const GenericForStat& node) { generic_for(node); },
@@ -82,11 +84,8 @@ void Walker::give(Variable& variable, const Type& type, Span place, const Expr* 
   const std::optional<Type> joined = join(variable.type, type);
   if (!joined) {
     if (!context_.report) return;
-    const auto is_function = [](const Type& t) {
-      return t.kind == Type::Kind::Function || t.kind == Type::Kind::Library;
-    };
     if (is_function(variable.type) || is_function(type)) {
-      error(Code::FunctionNotKnown, place, {std::string(name)});
+      refuse_function(place, name, given);
       return;
     }
     if (variable.type.kind == Type::Kind::String && type.kind == Type::Kind::String) {
@@ -106,6 +105,7 @@ void Walker::give(Variable& variable, const Type& type, Span place, const Expr* 
 
 void Walker::declare(const Local& local, const Type& type, Span given_at, const Expr* given) {
   Variable& variable = work_.variables[&local];
+  trace_parameter(&local, given);
   give(variable, type, given_at, given, local.name);
   if (!context_.report || work_.spec == nullptr) return;
   work_.spec->locals[&local].type = variable.type;
@@ -171,10 +171,11 @@ void Walker::assign_name(const AssignStat& stat, const NameExpr& target, const T
       if (context_.report) work_.top_level_writes.push_back({&local, stat.span});
       return;
     }
-    if (type.kind == Type::Kind::Function || variable_of(local).type.kind == Type::Kind::Function) {
-      error(Code::FunctionNotKnown, stat.span, {text});
+    if (is_function(type) || is_function(variable_of(local).type)) {
+      refuse_function(stat.span, text, &given);
       return;
     }
+    trace_parameter(&local, &given);
     give(variable_of(local), type, given.span, &given, local.name);
     local_name(target);
     if (context_.report && local.function != work_.function) work_.outer_writes.insert(&local);
@@ -189,11 +190,14 @@ void Walker::assign_name(const AssignStat& stat, const NameExpr& target, const T
     return;
   }
   Global* global = context_.globals.find(target.name);
-  if (global == nullptr || global->is_broken || global->function != nullptr) return;
-  if (type.kind == Type::Kind::Function) {
-    error(Code::FunctionNotKnown, stat.span, {text});
+  if (global == nullptr) return;
+  if (global->is_broken) refuse_definition(*global, target.span);
+  if (global->is_broken || global->function != nullptr) return;
+  if (is_function(type)) {
+    refuse_function(stat.span, text, &given);
     return;
   }
+  trace_parameter(global, &given);
   give(global->variable, type, given.span, &given, target.name);
   global_name(target);
 }
@@ -262,16 +266,32 @@ void Walker::define_function(const FunctionStat& stat) {
     if (name->local->function == context_.chunk.main && !at_top_level()) {
       if (context_.report) work_.top_level_writes.push_back({name->local, stat.span});
     } else {
-      error(Code::FunctionNotKnown, stat.span, {text});
+      refuse_function(stat.span, text, nullptr);
     }
   } else if (name->environment != nullptr || name->name == "_ENV") {
     error(Code::EnvironmentTable, name->span, {"_ENV"});
   } else if (!at_top_level()) {
     error(Code::GlobalAssignment, stat.span, {text});
+  } else if (const Global* global = context_.globals.find(text); global != nullptr && global->is_broken) {
+    refuse_definition(*global, name->span);
   }
 }
 
+/// A function's name is defined once, and on every path.
+void Walker::refuse_definition(const Global& global, Span span) {
+  if (!context_.report || (span == global.definition && !global.in_branch)) return;
+  refuse_function(span, global.name, nullptr);
+}
+
 // ---- loops and results ---------------------------------------------------------------------------------------------
+
+void Walker::branch(const Expr& condition, const Block& body) {
+  this->condition(condition);
+  const bool depends = depends_on_parameter(condition);
+  parameter_branches_ += depends;
+  block(body);
+  parameter_branches_ -= depends;
+}
 
 void Walker::numeric_for(const NumericForStat& stat) {
   const auto bound = [&](const Expr* expr, const char* role) -> Type {
@@ -328,8 +348,7 @@ void Walker::return_values(const ReturnStat& stat) {
   if (at_top_level()) return; // what the file returns nobody reads
   for (size_t i = 0; i < list.types.size(); ++i) {
     Type& type = list.types[i];
-    if (type.kind != Type::Kind::Function && type.kind != Type::Kind::Library && type.kind != Type::Kind::String)
-      continue;
+    if (!is_function(type) && type.kind != Type::Kind::String) continue;
     error(Code::NotAvailableYet, stat.values[std::min(i, stat.values.size() - 1)]->span,
           {type.kind == Type::Kind::String ? "strings as results are" : "functions as results are"});
     type = unknown_type();

@@ -28,6 +28,10 @@ inline Type function_type(const syntax::Function* function) {
 inline bool is_unknown(const Type& type) { return type.kind == Type::Kind::Unknown; }
 /// An integer or a number.
 inline bool is_scalar(const Type& type) { return type.is(ValueType::Integer) || type.is(ValueType::Number); }
+/// A function of the shader or of the library (or one of its tables).
+inline bool is_function(const Type& type) {
+  return type.kind == Type::Kind::Function || type.kind == Type::Kind::Library;
+}
 inline bool is_vector(const Type& type) { return type.is_value() && is_vector(type.value); }
 
 /// The least type that holds both: integer and number give a mixed number, Unknown agrees with everything. Nothing

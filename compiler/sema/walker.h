@@ -54,6 +54,9 @@ private:
   void require_condition(const syntax::Expr& expr, const Type& type);
   Type and_expression(const syntax::BinaryExpr& expr);
   Type or_expression(const syntax::BinaryExpr& expr);
+  struct Arm;
+  std::optional<Type> conditional_type(const syntax::BinaryExpr& expr, const std::vector<Arm>& arms);
+  std::optional<Type> logical_type(const std::vector<Arm>& arms);
 
   // ---- calls.cpp
   TypeList call(const syntax::CallExpr& expr);
@@ -74,6 +77,13 @@ private:
 
   // ---- parameters.cpp
   TypeList parameter(const syntax::CallExpr& expr);
+  std::string_view constant_name(const syntax::Expr& expr);
+  uint32_t add_parameter(const syntax::CallExpr& expr, ParameterInfo info);
+  bool depends_on_parameter(const syntax::Expr& expr) const;
+  /// The variable (a syntax::Local or a Global) gets the value of an expression.
+  void trace_parameter(const void* variable, const syntax::Expr* given);
+  /// A name or an expression that stands for several functions.
+  void refuse_function(Span span, std::string_view name, const syntax::Expr* given);
 
   // ---- statements.cpp
   void block(const syntax::Block& block);
@@ -88,6 +98,8 @@ private:
   void generic_for(const syntax::GenericForStat& stat);
   void return_values(const syntax::ReturnStat& stat);
   void declare(const syntax::Local& local, const Type& type, Span given_at, const syntax::Expr* given);
+  void branch(const syntax::Expr& condition, const syntax::Block& body);
+  void refuse_definition(const Global& global, Span span);
   /// Joins a type given at a place into a variable.
   void give(Variable& variable, const Type& type, Span place, const syntax::Expr* given, std::string_view name);
 
@@ -114,6 +126,7 @@ private:
   Work& work_;
   unsigned loop_depth_ = 0;
   unsigned table_depth_ = 0;
+  unsigned parameter_branches_ = 0;          ///< enclosing branches that depend on a parameter
   std::vector<const syntax::Block*> blocks_; ///< enclosing ones in this function
   std::vector<size_t> positions_;            ///< of the statement being walked in each of them
   /// Where a label of an enclosing block stands.
