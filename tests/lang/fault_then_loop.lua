@@ -1,4 +1,5 @@
 -- A lane that faults stops; it neither keeps a loop going nor faults a second time.
+-- steps: 2000
 function stops(frame, id)
   local sum = 0
   while sum < 1000 do
