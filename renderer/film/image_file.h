@@ -37,6 +37,9 @@ public:
   /// Writes and renames into place. Error, or empty.
   std::string write(const Picture& picture, const DisplaySettings& display, const ImageMetadata& metadata);
 
+  /// The file written to until then; to be deleted where the program ends before.
+  const std::string& temporary() const { return temporary_; }
+
   /// "png", "exr", ...; empty for an unknown ending.
   static std::string format_of(const std::string& path);
 

@@ -62,6 +62,7 @@ with tempfile.TemporaryDirectory() as folder:
     run(bumpy, "-o", image, "-D", "scale=2", status=2, error="expected MATERIAL.NAME=VALUE")
     run(bumpy, "-o", image, "--crop=0,0,4000,4000", status=2, error="--crop lies outside the image")
     run(bumpy, "-o", os.path.join(folder, "none/a.png"), status=2, error="No such file")
+    run(bumpy, "-o", image, f"--stats={folder}/none/s.json", status=2, error="none/s.json: No such file")
     for option in ("--noise=0.1", "--frames=1-2", "--fps=24", "--preview=x.png", "--tev", "--cache-dir=x", "--no-cache",
                    "--bake", "--aov=depth", "--resume", "--checkpoint=5", "--integrator=sppm", "--integrator=irradiance"):
         run(bumpy, "-o", image, option, status=2, error="not available yet")

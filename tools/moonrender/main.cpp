@@ -7,6 +7,7 @@
 
 #include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <iostream>
 #include <new>
 #include <unistd.h>
@@ -17,17 +18,33 @@ namespace {
 
 enum Exit { kDone = 0, kInputAtFault = 1, kCallAtFault = 2, kMachineAtFault = 3, kInterrupted = 130 };
 
-/// What a signal handler may touch.
-std::atomic<bool>* g_cancel = nullptr;
+/// What the signal handler may touch.
+struct Interruptible {
+  std::atomic<std::atomic<bool>*> cancel = nullptr; ///< set while there is a render to end in order
+  char temporary[4096] = "";                        ///< the image file not in place yet
+};
+Interruptible g_interruptible;
 
-void interrupt(int) { g_cancel->store(true); }
+/// While rendering, the first Ctrl-C asks for an end with the passes done. At any other time, and the second time, the
+/// program ends at once.
+void interrupt(int) {
+  std::atomic<bool>* cancel = g_interruptible.cancel;
+  if (cancel && !cancel->exchange(true)) return;
+  if (g_interruptible.temporary[0]) ::unlink(g_interruptible.temporary);
+  ::_exit(kInterrupted);
+}
 
-/// The first Ctrl-C asks for an end after the passes done, the second ends at once.
-void catch_interrupts(std::atomic<bool>& cancel) {
-  g_cancel = &cancel;
+/// For as long as a render can be ended in order.
+struct OrderlyInterrupts {
+  explicit OrderlyInterrupts(std::atomic<bool>& cancel) { g_interruptible.cancel = &cancel; }
+  ~OrderlyInterrupts() { g_interruptible.cancel = nullptr; }
+};
+
+void catch_interrupts(const std::string& temporary) {
+  if (temporary.size() < sizeof g_interruptible.temporary) std::strcpy(g_interruptible.temporary, temporary.c_str());
   struct sigaction action{};
   action.sa_handler = interrupt;
-  action.sa_flags = int(SA_RESETHAND | SA_RESTART);
+  action.sa_flags = SA_RESTART;
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
 }
@@ -66,6 +83,9 @@ int run(const Options& options) {
   renderer::ImageFile image;
   if (std::string error = image.open(options.output); !error.empty())
     return fail(kCallAtFault, "moonrender: error: " + error);
+  catch_interrupts(image.temporary());
+  if (std::string error = check_stats_place(options); !error.empty())
+    return fail(kCallAtFault, "moonrender: error: " + error);
   double read_seconds = timer.lap();
 
   auto shaders = renderer::runtime_shaders(options.shaders);
@@ -77,8 +97,8 @@ int run(const Options& options) {
   const renderer::Settings& settings = prepared.scene.settings;
 
   renderer::RenderProgress progress;
-  catch_interrupts(progress.cancel);
   renderer::RenderResult result;
+  OrderlyInterrupts orderly(progress.cancel);
   {
     ProgressDisplay display(progress, settings.samples, options.render.seconds);
     result = renderer::render(prepared, options.render, progress);

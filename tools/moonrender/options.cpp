@@ -17,7 +17,7 @@ constexpr const char* kExamples = R"(Examples:
   moonrender teapot.obj -o teapot.png                     a bare model: framed, under sun and sky
   moonrender copper.lua --size=640x360 --spp=16 -o a.png  a quick look
   moonrender copper.lua --integrator=whitted -o b.png     direct light and mirrors only
-  moonrender copper.lua --time=60 -o c.exr                as many samples as a minute gives, linear floats
+  moonrender copper.lua --time=60 --spp=9999 -o c.exr     what a minute gives, as linear floats
   moonrender copper.lua -D copper.scale=12 -o d.png       a parameter of the material 'copper'
   moonrender copper.lua --backend=interp -o e.png         the same shaders in stock Lua
 

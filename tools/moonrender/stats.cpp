@@ -4,6 +4,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <nlohmann/json.hpp>
@@ -16,6 +17,16 @@ static uint64_t peak_memory_bytes() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   return uint64_t(usage.ru_maxrss) * 1024;
+}
+
+std::string check_stats_place(const Options& options) {
+  if (options.stats.empty() || options.stats == "-") return "";
+  std::filesystem::path path(options.stats);
+  std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error)) return options.stats + ": is a folder";
+  if (::access(folder.c_str(), W_OK | X_OK) != 0) return options.stats + ": " + std::strerror(errno);
+  return "";
 }
 
 std::string write_stats(const Options& options, const renderer::PreparedScene& scene,

@@ -21,6 +21,9 @@ private:
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
+/// Can the file that --stats names be written? An error, or empty.
+std::string check_stats_place(const Options& options);
+
 /// Writes the file that --stats names, if any; an error, or empty.
 std::string write_stats(const Options& options, const renderer::PreparedScene& scene,
                         const renderer::RenderResult& result, double load_seconds);
