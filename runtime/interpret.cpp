@@ -78,7 +78,7 @@ public:
     std::lock_guard lock(mutex_);
     if (site >= sites_.size()) return {};
     const InterpretFault& fault = sites_[site];
-    return {source_.name, fault.line, column_of(fault), fault.message};
+    return {source_.name, fault.place.line, fault.place.column, fault.message};
   }
 
 private:
@@ -105,7 +105,7 @@ private:
   uint32_t add_site(InterpretFault fault) const {
     std::lock_guard lock(mutex_);
     for (size_t i = 0; i < sites_.size(); ++i)
-      if (sites_[i].code == fault.code && sites_[i].line == fault.line && sites_[i].message == fault.message)
+      if (sites_[i].code == fault.code && sites_[i].place == fault.place && sites_[i].message == fault.message)
         return uint32_t(i);
     sites_.push_back(std::move(fault));
     return uint32_t(sites_.size() - 1);
@@ -123,24 +123,8 @@ private:
       if (batch.fault_codes) batch.fault_codes[row] = uint8_t(FaultCode::Error);
       if (batch.faults)
         report(*batch.faults, FaultCode::Error, row,
-               [] { return InterpretFault{FaultCode::Error, 1, "no memory for a Lua state"}; });
+               [] { return InterpretFault{FaultCode::Error, {}, "no memory for a Lua state"}; });
     }
-  }
-
-  /// Lua knows lines only: the column of what the fault is likely to mean in its line.
-  uint32_t column_of(const InterpretFault& fault) const {
-    size_t begin = 0;
-    for (uint32_t line = 1; line < fault.line; ++line) {
-      const size_t end = source_.text.find('\n', begin);
-      if (end == std::string::npos) return 1;
-      begin = end + 1;
-    }
-    std::string_view line = std::string_view(source_.text).substr(begin);
-    line = line.substr(0, line.find('\n'));
-    const char* word = fault.code == FaultCode::Assert ? "assert" : fault.code == FaultCode::Error ? "error" : "";
-    size_t column = *word ? line.find(word) : std::string_view::npos;
-    if (column == std::string_view::npos) column = line.find_first_not_of(" \t");
-    return column == std::string_view::npos ? 1 : uint32_t(column + 1);
   }
 
   const InterpretSource source_;

@@ -6,7 +6,6 @@
 #include "stdlib/lua_module.h"
 #include "stdlib/lua_vector.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -118,21 +117,6 @@ int note_error(lua_State* lua) {
   record.line = current_line(lua);
   std::snprintf(record.message, sizeof record.message, "%s", record.code == FaultCode::Error ? message : "");
   return 1;
-}
-
-/// Lua 5.4.4 does not save where it is before // and % of integers, so for their errors it tells the line of something
-/// that ran earlier: the division is taken to be the next one in the text.
-uint32_t line_of_division(std::string_view text, uint32_t told) {
-  uint32_t line = 1;
-  for (size_t begin = 0; begin < text.size(); ++line) {
-    const size_t end = std::min(text.find('\n', begin), text.size());
-    std::string_view code = text.substr(begin, end - begin);
-    code = code.substr(0, code.find("--"));
-    const bool divides = code.find("//") != code.npos || code.find('%') != code.npos || code.find("fmod") != code.npos;
-    if (line >= told && divides) return line;
-    begin = end + 1;
-  }
-  return told;
 }
 
 constexpr int kHandler = 1; // its place on the stack, below everything else
@@ -252,16 +236,12 @@ bool InterpretState::load(std::string& error) {
   lua_pushlightuserdata(lua_, const_cast<InterpretSource*>(&source_));
   start_counting();
   if (protected_call(lua_, 1, LUA_MULTRET) == LUA_OK) return lua_checkstack(lua_, 200);
-  const InterpretFault fault = last_fault();
-  error = source_.name + ":" + std::to_string(fault.line) + ": fault at the top level: " + fault_name(fault.code);
-  if (!fault.message.empty()) error += ": " + fault.message;
+  error = describe_top_level_fault(source_.name, last_fault());
   return false;
 }
 
 InterpretFault InterpretState::last_fault() const {
-  const bool divides = record_->code == FaultCode::DivideByZero;
-  const uint32_t line = divides ? line_of_division(source_.text, record_->line) : record_->line;
-  return {record_->code, line, record_->message};
+  return {record_->code, place_of_fault(source_.text, record_->code, record_->line), record_->message};
 }
 
 FaultCode InterpretState::call(size_t index, const Batch& batch, uint64_t row) {

@@ -1,6 +1,7 @@
 // One sandboxed Lua state that holds one loaded shader.
 #pragma once
 
+#include "runtime/interpret_fault.h"
 #include "runtime/shader.h"
 
 #include <cstdint>
@@ -21,13 +22,6 @@ struct InterpretSource {
   ShaderInfo info;
   std::map<std::string, Constant> parameters; ///< overrides, checked
   uint64_t step_limit = 0;
-};
-
-/// How one call ended.
-struct InterpretFault {
-  FaultCode code = FaultCode::None;
-  uint32_t line = 0;
-  std::string message;
 };
 
 class InterpretState {

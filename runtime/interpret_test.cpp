@@ -127,6 +127,7 @@ TEST(Interpret, TellsFaultsWithTheirPlaces) {
   expect(1e300, FaultCode::IntegerRange, 2, "");
   expect(NAN, FaultCode::IntegerRange, 2, "");
   EXPECT_EQ(shade(*instance.shader, {5, 0, 0}).report.count, 0u);
+  EXPECT_EQ(shade(*instance.shader, {2, 0, 0}).site.column, 5u);
 }
 
 TEST(Interpret, CountsStepsExactly) {
@@ -160,7 +161,7 @@ TEST(Interpret, TellsFaultsOfTheTopLevel) {
   const auto instance =
       interpreted("local n = param('n', 1)\nlocal x = 1 // n\nfunction height(p) return x end", {{"n", int64_t{0}}});
   EXPECT_FALSE(instance.shader);
-  EXPECT_EQ(instance.error, "test.lua:2: fault at the top level: division");
+  EXPECT_EQ(instance.error, "test.lua:2:13: the top level faults: division");
 }
 
 TEST(Interpret, TakesAFirstLineThatIsNoLua) {

@@ -79,6 +79,14 @@ void print_times(const CompileTimes& times) {
       times.parse, times.sema, times.ir, times.emit, times.optimize, times.codegen, times.total);
 }
 
+/// "FILE:LINE:COLUMN: message" in the form of a diagnostic; other errors as the program's own.
+std::string as_diagnostic(const std::string& error, const CheckedShader& checked) {
+  const std::string file = std::string(checked.sources().name(0)) + ":";
+  const size_t space = error.starts_with(file) ? error.find(": ", file.size()) : std::string::npos;
+  if (space == std::string::npos) return "shaderc: error: " + error;
+  return error.substr(0, space) + ": error: " + error.substr(space + 2);
+}
+
 /// Compiles or interprets the shader, with its parameters set.
 Ending instantiate(const CheckedShader& checked, const Options& options, std::shared_ptr<const Shader>& shader) {
   std::map<std::string, Constant> parameters;
@@ -93,7 +101,7 @@ Ending instantiate(const CheckedShader& checked, const Options& options, std::sh
     instance = compilation.program->instantiate(parameters);
   }
   if (!instance.shader) {
-    std::cerr << "shaderc: error: " << instance.error << "\n";
+    std::cerr << as_diagnostic(instance.error, checked) << "\n";
     return kInputAtFault;
   }
   shader = instance.shader;
