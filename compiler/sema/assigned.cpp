@@ -283,9 +283,10 @@ private:
 
 void check_assigned(Context& context, Work& work) { Flow(context, work).run(); }
 
-void check_assigned_for_entry(Context& context, const Work& top, const Work& entry) {
+void check_assigned_for_entry(Context& context, const Work& top, const Global& global, const Work& entry) {
   if (top.never_returns) return;
   const std::set<const void*> assigned(top.assigns_always.begin(), top.assigns_always.end());
+  if (!assigned.contains(&global)) context.error(Code::FunctionNotKnown, global.definition, {std::string(global.name)});
   for (const Requirement& requirement : entry.requires_assigned)
     if (!assigned.contains(requirement.variable))
       context.error(Code::UnassignedVariable, requirement.place, {std::string(requirement.name)});

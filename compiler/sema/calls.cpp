@@ -148,8 +148,10 @@ TypeList Walker::method_call(const MethodCallExpr& expr) {
       if (refused != nullptr && refused->code == Code::NotAvailableYet) {
         refuse_name(expr.method.span, expr.method.text);
       } else {
-        type_error(Code::UnknownMethod, expr.method.span,
-                   {std::string(expr.method.text), type_name(object), suggestion(expr.method.text, methods)});
+        const auto near = nearest(expr.method.text, methods);
+        suggest_fix(type_error(Code::UnknownMethod, expr.method.span,
+                               {std::string(expr.method.text), type_name(object), suggestion(near)}),
+                    near);
       }
     }
     return unknown_values();

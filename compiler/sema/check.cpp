@@ -54,7 +54,7 @@ Program check(const syntax::Chunk& chunk, const Options& options, Diagnostics& d
   if (context.exhausted) return program;
   for (const EntryPlan& plan : plans) {
     finish_entry(context, plan);
-    check_assigned_for_entry(context, *top, *plan.work);
+    check_assigned_for_entry(context, *top, *plan.global, *plan.work);
   }
   check_uncalled(context);
   check_memory(context, entry_works, *top);

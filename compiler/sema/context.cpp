@@ -153,7 +153,7 @@ std::string signature(const Work& work) {
 Diagnostic& Context::type_error(const Work& work, DiagnosticCode code, Span span,
                                 std::initializer_list<std::string> args) {
   Diagnostic& diagnostic = error(code, span, args);
-  if (&diagnostic == &silent) return diagnostic;
+  if (&diagnostic == &silent || specialise_unknown) return diagnostic;
   constexpr int kMostNotes = 8;
   int notes = 0;
   for (const Work* at = &work; at->caller != nullptr && notes < kMostNotes; at = at->caller, ++notes)

@@ -149,8 +149,8 @@ std::string signature(const Work& work);
 
 /// Definite assignment and missing results (assigned.cpp): after the reporting walk of the body.
 void check_assigned(Context& context, Work& work);
-/// At the end: the top level must have assigned what entry points read.
-void check_assigned_for_entry(Context& context, const Work& top, const Work& entry);
+/// At the end: the top level must have defined the entry point and assigned what it reads.
+void check_assigned_for_entry(Context& context, const Work& top, const Global& global, const Work& entry);
 /// Writes to the top level's locals (memory.cpp), once all bodies were walked.
 void check_memory(Context& context, const std::vector<Work*>& entries, const Work& top);
 /// Order of evaluation and the sets of outer variables read and assigned (order.cpp).

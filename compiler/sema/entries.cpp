@@ -71,7 +71,7 @@ std::vector<EntryPlan> plan_entries(Context& context, const std::vector<std::str
     names.push_back(global->name);
   for (const std::string& name : asked)
     if (std::ranges::find(names, name) == names.end())
-      context.diagnostics.report(Code::UnknownEntry, Span{}, {name, suggestion(name, names)});
+      context.diagnostics.report(Code::UnknownEntry, Span{}, {name, suggestion(nearest(name, names))});
   return plans;
 }
 

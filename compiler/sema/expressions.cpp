@@ -223,7 +223,8 @@ void Walker::refuse_name(Span span, std::string_view name) {
   const std::string text(name);
   const RefusedName* refused = find_refused_name(name);
   if (refused == nullptr) {
-    error(Code::UnknownName, span, {text, suggest_visible(name)});
+    const auto near = nearest_visible(name);
+    suggest_fix(error(Code::UnknownName, span, {text, suggestion(near)}), near);
   } else if (refused->code == Code::NotAvailableYet) {
     error(Code::NotAvailableYet, span,
           {refused->advice.empty() ? "the library's '" + text + "' is" : std::string(refused->advice)});
@@ -234,8 +235,8 @@ void Walker::refuse_name(Span span, std::string_view name) {
   }
 }
 
-std::string Walker::suggest_visible(std::string_view name) {
-  if (context_.diagnostics.error_count() >= Diagnostics::kMaxErrors) return "";
+std::optional<std::string_view> Walker::nearest_visible(std::string_view name) const {
+  if (context_.diagnostics.error_count() >= Diagnostics::kMaxErrors) return std::nullopt;
   std::vector<std::string_view> candidates;
   for (const Work* at = &work_; at != nullptr; at = at->parent)
     for (const auto& [local, variable] : at->variables)
@@ -244,7 +245,7 @@ std::string Walker::suggest_visible(std::string_view name) {
     candidates.push_back(global_name);
   const std::vector<std::string_view> library = library_names("");
   candidates.insert(candidates.end(), library.begin(), library.end());
-  return suggestion(name, candidates);
+  return nearest(name, candidates);
 }
 
 // ---- fields and components -----------------------------------------------------------------------------------------
@@ -288,8 +289,10 @@ Type Walker::library_field(const IndexExpr& expr, std::string_view table) {
   if (find_refused_name(full) != nullptr) {
     refuse_name(expr.span, full);
   } else {
-    error(Code::UnknownField, key->span,
-          {"the library's table 'math'", std::string(key->value), suggestion(key->value, library_names("math."))});
+    const auto near = expr.is_dotted ? nearest(key->value, library_names("math.")) : std::nullopt;
+    suggest_fix(
+        error(Code::UnknownField, key->span, {"the library's table 'math'", std::string(key->value), suggestion(near)}),
+        near);
   }
   return unknown_type();
 }

@@ -173,9 +173,12 @@ std::optional<std::string_view> nearest(std::string_view name, std::span<const s
   return best;
 }
 
-std::string suggestion(std::string_view name, std::span<const std::string_view> candidates) {
-  const auto best = nearest(name, candidates);
-  return best ? "; did you mean '" + std::string(*best) + "'" : "";
+std::string suggestion(const std::optional<std::string_view>& nearest_name) {
+  return nearest_name ? "; did you mean '" + std::string(*nearest_name) + "'" : "";
+}
+
+void suggest_fix(Diagnostic& diagnostic, const std::optional<std::string_view>& nearest_name) {
+  if (nearest_name) diagnostic.suggest(diagnostic.span, std::string(*nearest_name));
 }
 
 } // namespace moonshade::sema

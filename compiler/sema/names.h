@@ -48,7 +48,9 @@ std::vector<std::string_view> library_names(std::string_view prefix);
 /// The candidate that `name` was probably meant to be: the fewest edits, at most a third of its length.
 std::optional<std::string_view> nearest(std::string_view name, std::span<const std::string_view> candidates);
 
-/// "; did you mean 'x'?" without the question mark, or nothing.
-std::string suggestion(std::string_view name, std::span<const std::string_view> candidates);
+/// "; did you mean 'x'" for messages, or nothing.
+std::string suggestion(const std::optional<std::string_view>& nearest_name);
+/// The name as the fix of the diagnostic, where there is one.
+void suggest_fix(Diagnostic& diagnostic, const std::optional<std::string_view>& nearest_name);
 
 } // namespace moonshade::sema

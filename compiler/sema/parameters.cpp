@@ -49,8 +49,8 @@ private:
       return;
     }
     if (std::ranges::find(kFields, key->value) == std::end(kFields)) {
-      refuse(key->span,
-             "the metadata of a parameter has no '" + std::string(key->value) + "'" + suggestion(key->value, kFields));
+      refuse(key->span, "the metadata of a parameter has no '" + std::string(key->value) + "'" +
+                            suggestion(nearest(key->value, kFields)));
       return;
     }
     if (key->value == "doc" || key->value == "label") {

@@ -116,6 +116,8 @@ INSTANTIATE_TEST_SUITE_P(
                    {"unassigned-variable"}},
            Refusal{"function f(x) return x end\nfunction $f(x) return 2 end", {"function-not-known"}},
            Refusal{"if param('a', true) then function $f() return 1 end end", {"depends-on-parameter"}},
+           Refusal{"if param('a', true) then return end\nfunction $height(p) return 1 end", {"function-not-known"}},
+           Refusal{"do\n  goto done\n  function $height(p) return 1 end\n  ::done::\nend", {"function-not-known"}},
            Refusal{"for i = 1, 2 do function $f() return 1 end end", {"function-not-known"}},
            Refusal{"local fancy = param('fancy', true)\nlocal much = fancy and 2 or 1\nlocal f\n"
                    "if much > 1 then\n  $f = function(x) return x end\nelse\n  $f = sin\nend",
@@ -236,6 +238,16 @@ TEST(Refusals, ProposeTheNearestName) {
               testing::HasSubstr("did you mean 'smoothstep'"));
   EXPECT_THAT(Checked("function height(p) local amount = 1 return amuont end").text,
               testing::HasSubstr("did you mean 'amount'"));
+}
+
+TEST(Refusals, OfferTheNearestNameAsFix) {
+  for (const char* source : {"function height(p) return smoothstp(0, 1, p.x) end", "local x = math.sim(1)",
+                             "function height(p) return p:lenght() end"}) {
+    const Checked checked(source);
+    const Diagnostic& diagnostic = *checked.diagnostics.sorted().at(0);
+    ASSERT_TRUE(diagnostic.fix.has_value()) << source;
+    EXPECT_EQ(diagnostic.fix->span, diagnostic.span);
+  }
 }
 
 TEST(Refusals, ProposeWhatToWriteInstead) {

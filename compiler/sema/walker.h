@@ -120,7 +120,7 @@ private:
   Diagnostic& type_error(DiagnosticCode code, Span span, std::initializer_list<std::string> args = {}) {
     return context_.type_error(work_, code, span, args);
   }
-  std::string suggest_visible(std::string_view name);
+  std::optional<std::string_view> nearest_visible(std::string_view name) const;
 
   Context& context_;
   Work& work_;
