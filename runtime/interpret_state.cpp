@@ -19,6 +19,7 @@ struct InterpretState::Record {
   uint32_t line = 0;
   char message[400] = "";
   uint64_t steps_left = 0;
+  bool loads = true; ///< Lua's own compiler takes the file
 
   void clear() {
     code = FaultCode::None;
@@ -225,7 +226,8 @@ bool InterpretState::load(std::string& error) {
       override_parameter(lua, name.c_str());
     }
     const std::string& text = source.loaded;
-    if (luaL_loadbufferx(lua, text.data(), text.size(), "=shader", "t") != LUA_OK) return lua_error(lua);
+    record_of(lua).loads = luaL_loadbufferx(lua, text.data(), text.size(), "=shader", "t") == LUA_OK;
+    if (!record_of(lua).loads) return lua_error(lua);
     lua_call(lua, 0, 0);
     lua_settop(lua, 0);
     luaL_checkstack(lua, int(source.info.entries.size()), "too many entry points");
@@ -236,7 +238,11 @@ bool InterpretState::load(std::string& error) {
   lua_pushlightuserdata(lua_, const_cast<InterpretSource*>(&source_));
   start_counting();
   if (protected_call(lua_, 1, LUA_MULTRET) == LUA_OK) return lua_checkstack(lua_, 200);
-  error = describe_top_level_fault(source_.name, last_fault());
+  // What the parser takes and Lua does not exceeds one of Lua's capacities (locals, upvalues, nesting).
+  if (!record_->loads)
+    error = source_.name + ": stock Lua cannot load this file: " + record_->message;
+  else
+    error = describe_top_level_fault(source_.name, last_fault());
   return false;
 }
 

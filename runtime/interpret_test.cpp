@@ -164,6 +164,18 @@ TEST(Interpret, TellsFaultsOfTheTopLevel) {
   EXPECT_EQ(instance.error, "test.lua:2:13: the top level faults: division");
 }
 
+TEST(Interpret, SaysWhereLuaHasNoCapacity) {
+  std::string text = "function height(p)\n";
+  for (int k = 0; k < 240; ++k)
+    text += "local v" + std::to_string(k) + " = p.x\n";
+  const CheckedShader checked("test.lua", text + "return v0\nend");
+  if (!checked.ok()) GTEST_SKIP() << "the parser's own limit is as small";
+  const Instantiation instance = interpret(checked, {}, {});
+  EXPECT_FALSE(instance.shader);
+  EXPECT_NE(instance.error.find("stock Lua cannot load this file"), std::string::npos) << instance.error;
+  EXPECT_NE(instance.error.find("too many local variables"), std::string::npos) << instance.error;
+}
+
 TEST(Interpret, TakesAFirstLineThatIsNoLua) {
   const auto instance = interpreted("#!/usr/bin/lua\nfunction height(p) return 1 // math.floor(p.x) end");
   ASSERT_TRUE(instance.shader) << instance.error;

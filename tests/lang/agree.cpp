@@ -134,6 +134,10 @@ public:
       for (Precision precision : {Precision::F32, Precision::F64})
         for (unsigned width : kWidths)
           check_variant({precision, width, optimization});
+    check_pieces({Precision::F32, 8, 2});
+    check_pieces({Precision::F64, 16, 2});
+    check_uniform_inputs({Precision::F32, 16, 2});
+    check_uniform_inputs({Precision::F64, 4, 2});
     return findings_;
   }
 
@@ -175,6 +179,74 @@ private:
     points.append_row(found, row);
     find(variant.name(), info.name + " (" + describe_inputs(info, points, row) + ") gives " + found + " for " +
                              (variant.precision == Precision::F64 ? "stock Lua's " : "one lane's ") + expected);
+  }
+
+  std::shared_ptr<const Shader> compiled(const Variant& variant, const std::vector<std::string>& uniform_inputs) {
+    CompileOptions options;
+    options.precision = variant.precision;
+    options.width = variant.width;
+    options.optimization = variant.optimization;
+    options.step_limit = directives_.step_limit;
+    options.uniform_inputs = uniform_inputs;
+    const Compilation compilation = compile(checked_, options);
+    return compilation.program ? compilation.program->instantiate({}).shader : nullptr;
+  }
+
+  void compare(const std::string& where, const EntryInfo& entry, const Points& expected, const Points& found) {
+    const size_t row = first_difference(expected, found);
+    if (row == kPoints) return;
+    std::string expected_row, found_row;
+    expected.append_row(expected_row, row);
+    found.append_row(found_row, row);
+    find(where,
+         entry.name + " (" + describe_inputs(entry, found, row) + ") gives " + found_row + ", not " + expected_row);
+  }
+
+  /// Batches of any size give what one batch gives.
+  void check_pieces(const Variant& variant) {
+    const auto shader = compiled(variant, {});
+    if (!shader) return; // reported already
+    for (size_t entry = 0; entry < doubles_.size(); ++entry) {
+      const EntryInfo& info = shader->info().entries[entry];
+      const Points whole = shaded(*shader, entry);
+      Points pieces = make_points(info, variant.precision, directives_.mild);
+      for (size_t begin = 0, size = 1; begin < kPoints; begin += size, size = size * 2 + 1)
+        pieces.run_range(*shader, entry, begin, std::min(size, kPoints - begin));
+      compare(variant.name() + " in pieces", info, whole, pieces);
+    }
+  }
+
+  /// An input with one value for the whole batch gives what that value gives in an array.
+  void check_uniform_inputs(const Variant& variant) {
+    const auto arrays = compiled(variant, {}), uniform = compiled(variant, {"time", "frame"});
+    if (!arrays || !uniform) return;
+    for (size_t entry = 0; entry < doubles_.size(); ++entry) {
+      const EntryInfo& info = arrays->info().entries[entry];
+      for (const size_t row : {size_t{0}, size_t{1}, size_t{7}, size_t{40}}) {
+        Points expected = make_points(info, variant.precision, directives_.mild);
+        if (!spread(info, expected, row)) break;
+        Points found = expected;
+        expected.run(*arrays, entry, kPoints);
+        found.run(*uniform, entry, kPoints);
+        compare(variant.name() + " with uniform inputs", info, expected, found);
+      }
+    }
+  }
+
+  /// Gives all rows the time and frame of one row; false where the entry has neither.
+  static bool spread(const EntryInfo& entry, Points& points, size_t row) {
+    size_t component = 0;
+    bool any = false;
+    for (const InputInfo& input : entry.inputs) {
+      if (input.name == "time" || input.name == "frame") {
+        any = true;
+        const Scalar value = points.input(component, row);
+        for (size_t other = 0; other < kPoints; ++other)
+          points.set_input(component, other, value);
+      }
+      component += component_count(input.type);
+    }
+    return any;
   }
 
   /// The runs that the program names; `instantiate` makes a shader for parameters.
