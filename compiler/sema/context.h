@@ -46,6 +46,7 @@ struct Work {
   /// Some `return` of the last walk gives values that are not known (an error, or not inferred yet).
   bool has_open_return = false;
   std::vector<Type> results;
+  std::vector<Type> first_results; ///< those of the first `return`
   Span first_return{};
   /// First expression of each result, for messages.
   std::vector<Span> result_spans;

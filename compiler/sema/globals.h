@@ -15,7 +15,8 @@ namespace moonshade::sema {
 /// The type of a variable as far as it is inferred, and what made it so.
 struct Variable {
   Type type;
-  Span first{};                                ///< where the first value was given
+  Type first_type; ///< of the first value given to it, and where
+  Span first{};
   const syntax::Expr* integer_given = nullptr; ///< an integer given to it, for `mixed-number`
 };
 

@@ -211,7 +211,10 @@ INSTANTIATE_TEST_SUITE_P(EntriesAndParameters, RefusalTest,
 
 INSTANTIATE_TEST_SUITE_P(
     Recovery, RefusalTest,
-    Values(Refusal{"function color(p)\n  local a = $foo(p)\n  local b = a + 1\n  if b then return a end\n"
+    Values(Refusal{"local function f(x) if x > 0 then return 1 end return $vec3(x) end\n"
+                   "function height(p)\n  local a = 1\n  a = $p\n  local b = a + f(p.x)\n  return b & 1\nend",
+                   {"result-type", "type-conflict"}},
+           Refusal{"function color(p)\n  local a = $foo(p)\n  local b = a + 1\n  if b then return a end\n"
                    "  return $bar\nend\nfunction height(p) if $1 then end return 1 end",
                    {"unknown-name", "unknown-name", "number-as-condition"}},
            Refusal{"local function unused(a, b)\n  local c = a + b\n  return $c .. $nil\nend",

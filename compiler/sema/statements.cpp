@@ -81,26 +81,30 @@ void Walker::statement(const Stat& stat) {
 
 void Walker::give(Variable& variable, const Type& type, Span place, const Expr* given, std::string_view name) {
   if (type.is(ValueType::Integer) && variable.integer_given == nullptr) variable.integer_given = given;
-  const std::optional<Type> joined = join(variable.type, type);
-  if (!joined) {
-    if (!context_.report) return;
-    if (is_function(variable.type) || is_function(type)) {
-      refuse_function(place, name, given);
-      return;
-    }
-    if (variable.type.kind == Type::Kind::String && type.kind == Type::Kind::String) {
-      error(Code::NotAvailableYet, place, {"variables that hold several strings are"});
-      return;
-    }
-    Diagnostic& diagnostic =
-        type_error(Code::TypeConflict, place, {std::string(name), describe(variable.type), describe(type)});
-    diagnostic.note(Code::NoteFirstGiven, variable.first, {describe(variable.type)});
-    return;
+  if (is_unknown(variable.first_type) && !is_unknown(type)) {
+    variable.first_type = type;
+    variable.first = place;
   }
-  if (is_unknown(variable.type)) variable.first = place;
-  if (*joined == variable.type) return;
-  variable.type = *joined;
-  context_.changed = true;
+  const bool fits = join(variable.first_type, type).has_value();
+  const Type joined = fits ? join(variable.type, type).value_or(conflicting_type()) : conflicting_type();
+  if (joined != variable.type) {
+    variable.type = joined;
+    context_.changed = true;
+  }
+  if (!fits && context_.report) refuse_conflict(variable, type, place, given, name);
+}
+
+void Walker::refuse_conflict(const Variable& variable, const Type& type, Span place, const Expr* given,
+                             std::string_view name) {
+  const Type& first = variable.first_type;
+  if (is_function(first) || is_function(type)) {
+    refuse_function(place, name, given);
+  } else if (first.kind == Type::Kind::String && type.kind == Type::Kind::String) {
+    error(Code::NotAvailableYet, place, {"variables that hold several strings are"});
+  } else {
+    type_error(Code::TypeConflict, place, {std::string(name), describe(first), describe(type)})
+        .note(Code::NoteFirstGiven, variable.first, {describe(first)});
+  }
 }
 
 void Walker::declare(const Local& local, const Type& type, Span given_at, const Expr* given) {
@@ -362,7 +366,7 @@ void Walker::return_values(const ReturnStat& stat) {
   };
   if (!work_.has_results) {
     work_.has_results = true;
-    work_.results = list.types;
+    work_.results = work_.first_results = list.types;
     work_.first_return = stat.span;
     for (size_t i = 0; i < list.types.size(); ++i)
       work_.result_spans.push_back(span_of(i));
@@ -375,14 +379,15 @@ void Walker::return_values(const ReturnStat& stat) {
     return;
   }
   for (size_t i = 0; i < list.types.size(); ++i) {
-    const std::optional<Type> joined = join(work_.results[i], list.types[i]);
-    if (!joined) {
-      type_error(Code::ResultType, span_of(i), {describe(list.types[i]), describe(work_.results[i])})
+    const bool fits = join(work_.first_results[i], list.types[i]).has_value();
+    if (!fits)
+      type_error(Code::ResultType, span_of(i), {describe(list.types[i]), describe(work_.first_results[i])})
           .note(Code::NoteOtherReturn, work_.first_return);
-    } else if (*joined != work_.results[i]) {
-      work_.results[i] = *joined;
-      context_.changed = true;
-    }
+    if (is_unknown(work_.first_results[i])) work_.first_results[i] = list.types[i];
+    const Type joined = fits ? join(work_.results[i], list.types[i]).value_or(conflicting_type()) : conflicting_type();
+    if (joined == work_.results[i]) continue;
+    work_.results[i] = joined;
+    context_.changed = true;
   }
 }
 

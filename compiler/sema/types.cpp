@@ -1,5 +1,5 @@
 // The lattice of types is flat but for integer <: mixed number and number <: mixed number, so a variable's type can
-// change at most three times and inference ends.
+// change at most three times (unknown, integer, mixed, conflicting) and inference ends.
 #include "compiler/sema/types.h"
 
 #include <functional>
@@ -7,7 +7,8 @@
 namespace moonshade::sema {
 
 std::optional<Type> join(const Type& a, const Type& b) {
-  if (a == b || is_unknown(b)) return a;
+  if (b == conflicting_type()) return b;
+  if (a == b || is_unknown(b) || a == conflicting_type()) return a;
   if (is_unknown(a)) return b;
   if (is_scalar(a) && is_scalar(b)) return mixed_type();
   return std::nullopt;

@@ -34,6 +34,14 @@ inline bool is_function(const Type& type) {
 }
 inline bool is_vector(const Type& type) { return type.is_value() && is_vector(type.value); }
 
+/// Of what was given values of types that do not fit each other, which is reported once: it agrees with everything, so
+/// that nothing follows from it.
+inline Type conflicting_type() {
+  Type type;
+  type.mixed = true;
+  return type;
+}
+
 /// The least type that holds both: integer and number give a mixed number, Unknown agrees with everything. Nothing
 /// where there is none.
 std::optional<Type> join(const Type& a, const Type& b);
