@@ -7,8 +7,8 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <random>
 #include <sstream>
@@ -102,7 +102,7 @@ bool same(ValueType type, Scalar a, Scalar b) {
   if (type == ValueType::Boolean) return a.boolean == b.boolean;
   if (type == ValueType::Integer) return a.integer == b.integer;
   if (std::isnan(a.number) || std::isnan(b.number)) return std::isnan(a.number) && std::isnan(b.number);
-  return std::memcmp(&a.number, &b.number, sizeof(double)) == 0;
+  return std::bit_cast<uint64_t>(a.number) == std::bit_cast<uint64_t>(b.number);
 }
 
 /// The first row in which the results or faults differ, or capacity().

@@ -6,9 +6,9 @@
 #include "tools/moonbench/inputs.h"
 
 #include <algorithm>
+#include <bit>
 #include <chrono>
 #include <cmath>
-#include <cstring>
 #include <thread>
 
 namespace moonshade::moonbench {
@@ -115,7 +115,7 @@ void prepare(Contestant& contestant, const std::string& entry, const Options& op
 
 bool same_bits(double a, double b) {
   if (std::isnan(a) || std::isnan(b)) return std::isnan(a) && std::isnan(b);
-  return std::memcmp(&a, &b, sizeof a) == 0;
+  return std::bit_cast<uint64_t>(a) == std::bit_cast<uint64_t>(b);
 }
 
 struct Difference {

@@ -135,7 +135,7 @@ DiagnosticFormat format_of(const std::string& name) {
 void move_inputs_from_files(Options& options) {
   if (options.inputs.empty()) return;
   std::erase_if(options.files, [&](const std::string& file) {
-    if (!split_assignment(file) || file.ends_with(".lua")) return false;
+    if (split_assignment(file).name.empty() || file.ends_with(".lua")) return false;
     options.inputs.push_back(file);
     return true;
   });
@@ -155,9 +155,9 @@ std::string contradiction(const Options& options) {
   if (!options.emit && (options.compile.cpu != "native" || !options.compile.target.empty()))
     return "--cpu and --target stand with --emit: code for other machines cannot run here";
   for (const std::string& definition : options.definitions)
-    if (!split_assignment(definition)) return "-D takes NAME=VALUE, not '" + definition + "'";
+    if (split_assignment(definition).name.empty()) return "-D takes NAME=VALUE, not '" + definition + "'";
   for (const std::string& input : options.inputs)
-    if (!split_assignment(input)) return "--input takes NAME=VALUE, not '" + input + "'";
+    if (split_assignment(input).name.empty()) return "--input takes NAME=VALUE, not '" + input + "'";
   if (options.emit == Stage::Object && (options.output.empty() || options.output == "-") && isatty(STDOUT_FILENO))
     return "--emit=obj needs -o FILE: an object file is nothing for a terminal";
   return "";
@@ -186,12 +186,12 @@ int call_error(const std::string& message) {
   return kCallAtFault;
 }
 
-std::optional<Assignment> split_assignment(std::string_view text) {
+Assignment split_assignment(std::string_view text) {
   const size_t equals = text.find('=');
-  if (equals == std::string_view::npos || equals == 0) return std::nullopt;
+  if (equals == std::string_view::npos || equals == 0) return {};
   for (char c : text.substr(0, equals))
-    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '_') return std::nullopt;
-  return Assignment{text.substr(0, equals), text.substr(equals + 1)};
+    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '_') return {};
+  return {text.substr(0, equals), text.substr(equals + 1)};
 }
 
 ParsedOptions parse_options(int argc, char** argv) {

@@ -30,11 +30,11 @@ struct Options {
   bool time_report = false;
 };
 
-/// NAME=VALUE taken apart.
+/// NAME=VALUE taken apart; the name is empty where the text is none.
 struct Assignment {
   std::string_view name, value;
 };
-std::optional<Assignment> split_assignment(std::string_view text);
+Assignment split_assignment(std::string_view text);
 
 struct ParsedOptions {
   std::optional<Options> options; ///< nothing: end with `exit_status`, all is said

@@ -33,13 +33,17 @@ std::string quoted_list(const std::vector<std::string>& names) {
   return text.empty() ? "none" : text;
 }
 
+template <class Named> std::vector<std::string> names_of(const std::vector<Named>& things) {
+  std::vector<std::string> names(things.size());
+  std::transform(things.begin(), things.end(), names.begin(), [](const Named& thing) { return thing.name; });
+  return names;
+}
+
 // ---- the shader ----------------------------------------------------------------------------------------------------
 
 /// The entry that the call means: the one it names, or the only one.
 Ending find_entry(const ShaderInfo& info, const Options& options, size_t& index) {
-  std::vector<std::string> names;
-  for (const EntryInfo& entry : info.entries)
-    names.push_back(entry.name);
+  const std::vector<std::string> names = names_of(info.entries);
   if (options.compile.entries.empty() && names.size() == 1) {
     index = 0;
     return std::nullopt;
@@ -55,16 +59,12 @@ Ending find_entry(const ShaderInfo& info, const Options& options, size_t& index)
 
 Ending read_parameters(const ShaderInfo& info, const Options& options, std::map<std::string, Constant>& parameters) {
   for (const std::string& definition : options.definitions) {
-    const Assignment assignment = *split_assignment(definition);
+    const Assignment assignment = split_assignment(definition);
     const auto parameter = std::find_if(info.parameters.begin(), info.parameters.end(),
                                         [&](const ParameterInfo& p) { return p.name == assignment.name; });
-    if (parameter == info.parameters.end()) {
-      std::vector<std::string> names;
-      for (const ParameterInfo& p : info.parameters)
-        names.push_back(p.name);
+    if (parameter == info.parameters.end())
       return call_error("-D: the shader has no parameter '" + std::string(assignment.name) + "'; there are " +
-                        quoted_list(names));
-    }
+                        quoted_list(names_of(info.parameters)));
     CheckedConstant checked = parse_override(*parameter, assignment.value);
     if (!checked.error.empty()) return call_error("-D: " + checked.error);
     parameters[parameter->name] = std::move(checked.value);
@@ -113,14 +113,17 @@ Ending instantiate(const CheckedShader& checked, const Options& options, std::sh
 /// Where a component of an input comes from: a column of the CSV, or the value that --input gives.
 struct Source {
   std::string name; ///< "p.x"
-  std::optional<size_t> column;
-  std::optional<Scalar> value;
+  size_t column = kNoColumn;
+  bool is_given = false; ///< by --input, as
+  Scalar value{};
+
+  static constexpr size_t kNoColumn = SIZE_MAX;
 };
 
 Ending read_inputs(const EntryInfo& entry, const Options& options, std::vector<Source>& sources) {
   std::map<std::string, std::vector<Scalar>, std::less<>> given;
   for (const std::string& text : options.inputs) {
-    const auto [name, value] = *split_assignment(text);
+    const auto [name, value] = split_assignment(text);
     const auto type = input_type(name);
     if (!type) return call_error("--input: the dialect has no input '" + std::string(name) + "'");
     const auto components = parse_value(*type, value);
@@ -132,9 +135,10 @@ Ending read_inputs(const EntryInfo& entry, const Options& options, std::vector<S
   for (const InputInfo& input : entry.inputs) {
     const auto found = given.find(input.name);
     for (unsigned i = 0; i < component_count(input.type); ++i) {
-      Source source{component_name(input.name, input.type, i), std::nullopt, std::nullopt};
-      if (found != given.end()) source.value = found->second[i];
-      sources.push_back(std::move(source));
+      Source& source = sources.emplace_back();
+      source.name = component_name(input.name, input.type, i);
+      source.is_given = found != given.end();
+      if (source.is_given) source.value = found->second[i];
     }
     if (options.points.empty() && found == given.end())
       return call_error("the input '" + input.name + "' of '" + entry.name + "' is not given: --input " + input.name +
@@ -149,7 +153,7 @@ Ending read_header(const std::vector<std::string>& header, const Options& option
     const auto found = std::find(header.begin(), header.end(), source.name);
     if (found != header.end())
       source.column = size_t(found - header.begin());
-    else if (!source.value)
+    else if (!source.is_given)
       return call_error("the input '" + source.name.substr(0, source.name.find('.')) +
                         "' is not given: " + options.points + " has no column '" + source.name + "'");
   }
@@ -163,12 +167,12 @@ Ending read_row(const CsvReader& csv, const Options& options, const std::vector<
     return kInputAtFault;
   };
   for (size_t i = 0; i < sources.size(); ++i) {
-    if (!sources[i].column) {
-      points.set_input(i, row, *sources[i].value);
+    if (sources[i].column == Source::kNoColumn) {
+      points.set_input(i, row, sources[i].value);
       continue;
     }
-    if (*sources[i].column >= csv.fields().size()) return fail("the column '" + sources[i].name + "' is missing");
-    const std::string& field = csv.fields()[*sources[i].column];
+    if (sources[i].column >= csv.fields().size()) return fail("the column '" + sources[i].name + "' is missing");
+    const std::string& field = csv.fields()[sources[i].column];
     const auto value = parse_scalar(points.input_type(i), field);
     if (!value) {
       const bool plain = points.input_type(i) == ValueType::Integer || points.input_type(i) == ValueType::Boolean;
@@ -235,7 +239,7 @@ private:
 int run_one_point(const Shader& shader, size_t entry, const std::vector<Source>& sources) {
   Runner runner(shader, entry, 1);
   for (size_t i = 0; i < sources.size(); ++i)
-    runner.points().set_input(i, 0, *sources[i].value);
+    runner.points().set_input(i, 0, sources[i].value);
   if (!runner.flush(1)) return machine_error("cannot write to standard output");
   return runner.finish();
 }
