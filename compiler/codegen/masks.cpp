@@ -303,6 +303,9 @@ bool Masks::in_loop() const {
 
 void Masks::leave_loop_unless(llvm::Value* live) {
   for (size_t i = frames_.size(); i-- > 0;) {
+    // Lanes that are switched off here, but not in the loop, may be alive.
+    const bool others_wait = frames_[i].kind == FrameKind::VaryingIf || frames_[i].facts.varying;
+    if (frames_[i].kind != FrameKind::Loop && others_wait) return;
     if (frames_[i].kind != FrameKind::Loop) continue;
     llvm::BasicBlock* next = new_block("live");
     builder_.CreateCondBr(any_lane(builder_, within(live)), next, frames_[i].exit);

@@ -81,7 +81,8 @@ public:
   // --- Faults
   /// Leaves everything: the block of points is finished. Branches to `abort_block` from here.
   void abort(llvm::BasicBlock* abort_block);
-  /// Leaves the innermost loop where none of the active lanes is in `live`.
+  /// Leaves the innermost loop where none of its lanes is in `live`; does nothing where lanes of the loop are switched
+  /// off here.
   void leave_loop_unless(llvm::Value* live);
   bool in_loop() const;
 
