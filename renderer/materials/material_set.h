@@ -10,6 +10,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace moonshade::renderer {
@@ -20,7 +21,10 @@ struct FaultKey {
   uint8_t code = 0;
   uint32_t line = 0;
   std::string message;
-  auto operator<=>(const FaultKey&) const = default;
+  /// In the order in which a reader goes through the files.
+  friend bool operator<(const FaultKey& a, const FaultKey& b) {
+    return std::tie(a.file, a.line, a.entry, a.code, a.message) < std::tie(b.file, b.line, b.entry, b.code, b.message);
+  }
 };
 using FaultLog = std::map<FaultKey, uint64_t>;
 

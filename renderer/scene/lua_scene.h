@@ -10,7 +10,7 @@
 //     rectangle{ center, u, v, material }         half its sides; faces cross(u, v)
 //     plane{ point, normal, size, material }      a large square
 //     box{ center, size, material }
-//     obj{ file = "model.obj", material, smooth = degrees }
+//     obj{ file = "model.obj", material }           its own materials where `material` is left out
 //     light{ type = "sun", direction (towards it), color, intensity, angle }
 //     light{ type = "sky", zenith, horizon, ground, color, intensity }
 //     light{ type = "point", position, color, intensity }

@@ -69,8 +69,8 @@ void fan(size_t count, Triangles& triangles) {
 void clip_ears(const std::vector<Flat>& flat, Triangles& triangles) {
   std::vector<uint32_t> left(flat.size());
   std::iota(left.begin(), left.end(), 0u);
-  size_t at = 0, misses = 0;
-  while (left.size() > 3 && misses < left.size()) {
+  size_t at = 0, misses = 0, patience = 32 * flat.size(); // hostile polygons would take cubic time
+  while (left.size() > 3 && misses < left.size() && patience-- > 0) {
     size_t n = left.size();
     at %= n;
     if (is_ear(flat, left, at)) {
@@ -89,8 +89,7 @@ void clip_ears(const std::vector<Flat>& flat, Triangles& triangles) {
 } // namespace
 
 void triangulate(std::span<const Vec3> polygon, Triangles& triangles) {
-  constexpr size_t kEarClippingLimit =
-      4096; // quadratic time beyond is not worth it: no such face comes from a modeller
+  constexpr size_t kEarClippingLimit = 1024; // the time is quadratic, and no larger face comes from a modeller
   if (polygon.size() == 3) return triangles.push_back({0, 1, 2});
   std::vector<Flat> flat = project(polygon, newell_normal(polygon));
   if (polygon.size() == 4) {
@@ -183,8 +182,8 @@ void compute_missing_normals(Mesh& mesh, const Smoothing& smoothing) {
       uint32_t& slot = mesh.normal_corners[triangle][corner];
       if (slot != Mesh::kNoIndex) continue;
       Vec3 sum(0);
-      // A vertex where thousands of faces meet would cost quadratic time; beyond this bound its faces stay flat.
-      if (around.start[position + 1] - around.start[position] <= 4096)
+      // A vertex where hundreds of faces meet would cost quadratic time; beyond this bound its faces stay flat.
+      if (around.start[position + 1] - around.start[position] <= 512)
         for (uint32_t k = around.start[position]; k < around.start[position + 1]; ++k)
           if (joined(triangle, around.corners[k] / 3)) sum += faces[around.corners[k] / 3] * angles[around.corners[k]];
       Vec3 normal = normalize_or(sum, faces[triangle]);
