@@ -27,6 +27,16 @@ void check_uncalled(Context& context) {
   }
 }
 
+/// What has no type though no error was reported is a variable read only where nothing leads, or a defect of ours.
+void check_typed(Context& context) {
+  if (context.untyped == nullptr || context.diagnostics.has_errors()) return;
+  if (const auto* name = syntax::try_as<syntax::NameExpr>(context.untyped)) {
+    context.error(DiagnosticCode::UnassignedVariable, name->span, {std::string(name->name)});
+  } else {
+    context.error(DiagnosticCode::InternalError, context.untyped->span, {"an expression without a type"});
+  }
+}
+
 } // namespace
 
 Program check(const syntax::Chunk& chunk, const Options& options, Diagnostics& diagnostics) {
@@ -58,6 +68,7 @@ Program check(const syntax::Chunk& chunk, const Options& options, Diagnostics& d
   }
   check_uncalled(context);
   check_memory(context, entry_works, *top);
+  check_typed(context);
   return program;
 }
 

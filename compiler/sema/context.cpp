@@ -87,6 +87,26 @@ void close_specialisation(Context& context, Work& work) {
     spec.locals[local].type = variable.type;
 }
 
+/// Conflicts that the reporting walk did not meet again.
+void report_conflicts(Context& context, const Work& work) {
+  std::vector<std::pair<const syntax::Local*, const Variable*>> conflicts;
+  for (const auto& [local, variable] : work.variables)
+    if (!is_unknown(variable.conflict_type)) conflicts.push_back({local, &variable});
+  std::ranges::sort(conflicts, {}, [](const auto& conflict) { return conflict.first->id; });
+  for (const auto& [local, variable] : conflicts)
+    refuse_conflict(context, work, *variable, local->name, variable->conflict_type, variable->conflict);
+  if (!is_unknown(work.conflict_type))
+    refuse_result(context, work, work.conflict_index, work.conflict_type, work.conflict);
+  if (work.function != context.chunk.main) return;
+  std::vector<const Global*> globals;
+  for (const auto& [name, global] : context.globals.by_name)
+    if (!is_unknown(global.variable.conflict_type)) globals.push_back(&global);
+  std::ranges::sort(globals, {}, &Global::name);
+  for (const Global* global : globals)
+    refuse_conflict(context, work, global->variable, global->name, global->variable.conflict_type,
+                    global->variable.conflict);
+}
+
 void walk_roots(Context& context, const std::vector<Work*>& roots) {
   for (Work* root : roots) {
     if (root->round != context.round) root->caller = nullptr;
@@ -106,6 +126,7 @@ void Context::analyse(Work& work) {
     Walker(*this, work).function_body();
     if (report && !exhausted) {
       close_specialisation(*this, work);
+      report_conflicts(*this, work);
       check_order(*this, work);
       check_assigned(*this, work);
       work.is_done = true;
@@ -140,6 +161,24 @@ void Context::too_large(Span span, std::string what, size_t limit) {
   if (exhausted) return;
   exhausted = true;
   diagnostics.report(DiagnosticCode::TooLarge, span, {std::move(what), std::to_string(limit)});
+}
+
+void refuse_conflict(Context& context, const Work& work, const Variable& variable, std::string_view name,
+                     const Type& type, Span place) {
+  const Type& first = variable.first_type;
+  if (is_function(first) || is_function(type)) {
+    context.error(DiagnosticCode::FunctionNotKnown, place, {std::string(name)});
+  } else if (first.kind == Type::Kind::String && type.kind == Type::Kind::String) {
+    context.error(DiagnosticCode::NotAvailableYet, place, {"variables that hold several strings are"});
+  } else {
+    context.type_error(work, DiagnosticCode::TypeConflict, place, {std::string(name), describe(first), describe(type)})
+        .note(DiagnosticCode::NoteFirstGiven, variable.first, {describe(first)});
+  }
+}
+
+void refuse_result(Context& context, const Work& work, size_t index, const Type& type, Span place) {
+  context.type_error(work, DiagnosticCode::ResultType, place, {describe(type), describe(work.first_results[index])})
+      .note(DiagnosticCode::NoteOtherReturn, work.first_return);
 }
 
 std::string signature(const Work& work) {

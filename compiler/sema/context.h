@@ -48,6 +48,9 @@ struct Work {
   std::vector<Type> results;
   std::vector<Type> first_results; ///< those of the first `return`
   Span first_return{};
+  Type conflict_type; ///< of the first result that did not fit, as Variable's
+  Span conflict{};
+  size_t conflict_index = 0;
   /// First expression of each result, for messages.
   std::vector<Span> result_spans;
 
@@ -115,6 +118,8 @@ struct Context {
   size_t facts = 0;
   bool exhausted = false; ///< a limit was met: all walks end
 
+  /// An expression of the program without a type: some error must have been reported.
+  const syntax::Expr* untyped = nullptr;
   std::set<std::pair<uint32_t, uint32_t>> reported;         ///< spans, so that each place is reported once
   std::set<std::pair<const void*, const void*>> recursions; ///< reported ones, by caller and callee
   /// Variables (syntax::Local or Global) whose values depend on the shader's parameters.
@@ -144,6 +149,11 @@ struct Context {
   Diagnostic& type_error(const Work& work, DiagnosticCode code, Span span,
                          std::initializer_list<std::string> args = {});
 };
+
+/// Reports that a value of this type, at this place, does not fit what was given before.
+void refuse_conflict(Context& context, const Work& work, const Variable& variable, std::string_view name,
+                     const Type& type, Span place);
+void refuse_result(Context& context, const Work& work, size_t index, const Type& type, Span place);
 
 /// "height(vec3)"
 std::string signature(const Work& work);

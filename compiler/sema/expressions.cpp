@@ -21,6 +21,7 @@ Type Walker::record(const Expr& expr, ExpressionFact fact) {
     context_.too_large(expr.span, "the specialisations of this shader have too many expressions", kMaxFacts);
     return type;
   }
+  if (is_unknown(type) && context_.collect && context_.untyped == nullptr) context_.untyped = &expr;
   work_.spec->expressions.insert_or_assign(expr.id, std::move(fact));
   return type;
 }

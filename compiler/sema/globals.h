@@ -17,6 +17,10 @@ struct Variable {
   Type type;
   Type first_type; ///< of the first value given to it, and where
   Span first{};
+  /// The first value that did not fit. Kept, for where the value depends on the variable itself the conflict is not met
+  /// again: by then the variable's type is the conflicting one.
+  Type conflict_type;
+  Span conflict{};
   const syntax::Expr* integer_given = nullptr; ///< an integer given to it, for `mixed-number`
 };
 

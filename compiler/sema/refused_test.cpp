@@ -134,6 +134,10 @@ INSTANTIATE_TEST_SUITE_P(
     Types, RefusalTest,
     Values(
         Refusal{"function height(p)\n  local x = 1\n  x = $p\n  return 1\nend", {"type-conflict"}},
+        Refusal{"function color(p)\n  local c = 60\n  c = $mix(c, p, 0.5)\n  return c\nend", {"type-conflict"}},
+        Refusal{"function color(p)\n  local y\n  if p.x > 0 then return p end\n  error('x')\n  y = $y\n"
+                "  return p\nend",
+                {"unassigned-variable"}},
         Refusal{"function height(p) if $p.x then return 1 end return 2 end", {"number-as-condition"}},
         Refusal{"local function f() while $1 do end end",
                 {

@@ -91,19 +91,15 @@ void Walker::give(Variable& variable, const Type& type, Span place, const Expr* 
     variable.type = joined;
     context_.changed = true;
   }
-  if (!fits && context_.report) refuse_conflict(variable, type, place, given, name);
-}
-
-void Walker::refuse_conflict(const Variable& variable, const Type& type, Span place, const Expr* given,
-                             std::string_view name) {
-  const Type& first = variable.first_type;
-  if (is_function(first) || is_function(type)) {
-    refuse_function(place, name, given);
-  } else if (first.kind == Type::Kind::String && type.kind == Type::Kind::String) {
-    error(Code::NotAvailableYet, place, {"variables that hold several strings are"});
+  if (fits) return;
+  if (is_unknown(variable.conflict_type)) {
+    variable.conflict_type = type;
+    variable.conflict = place;
+  }
+  if (!is_function(variable.first_type) && !is_function(type)) {
+    refuse_conflict(context_, work_, variable, name, type, place);
   } else {
-    type_error(Code::TypeConflict, place, {std::string(name), describe(first), describe(type)})
-        .note(Code::NoteFirstGiven, variable.first, {describe(first)});
+    refuse_function(place, name, given);
   }
 }
 
@@ -380,9 +376,12 @@ void Walker::return_values(const ReturnStat& stat) {
   }
   for (size_t i = 0; i < list.types.size(); ++i) {
     const bool fits = join(work_.first_results[i], list.types[i]).has_value();
-    if (!fits)
-      type_error(Code::ResultType, span_of(i), {describe(list.types[i]), describe(work_.first_results[i])})
-          .note(Code::NoteOtherReturn, work_.first_return);
+    if (!fits) refuse_result(context_, work_, i, list.types[i], span_of(i));
+    if (!fits && is_unknown(work_.conflict_type)) {
+      work_.conflict_type = list.types[i];
+      work_.conflict = span_of(i);
+      work_.conflict_index = i;
+    }
     if (is_unknown(work_.first_results[i])) work_.first_results[i] = list.types[i];
     const Type joined = fits ? join(work_.results[i], list.types[i]).value_or(conflicting_type()) : conflicting_type();
     if (joined == work_.results[i]) continue;

@@ -102,8 +102,6 @@ private:
   void refuse_definition(const Global& global, Span span);
   /// Joins a type given at a place into a variable.
   void give(Variable& variable, const Type& type, Span place, const syntax::Expr* given, std::string_view name);
-  void refuse_conflict(const Variable& variable, const Type& type, Span place, const syntax::Expr* given,
-                       std::string_view name);
 
   // ---- gotos.cpp
   void collect_labels(const syntax::Block& block);
