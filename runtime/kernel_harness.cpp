@@ -73,8 +73,8 @@ CompiledModule::CompiledModule(const ir::Module& module, codegen::Options option
 
 uint32_t CompiledModule::initialise() {
   uint32_t fault = 0;
-  auto* init = reinterpret_cast<void (*)(void*, uint32_t*)>(code_.function(generated.info.init_symbol));
-  init(constants.data(), &fault);
+  auto* init = reinterpret_cast<codegen::Init>(code_.function(generated.info.init_symbol));
+  codegen::call_init(init, constants.data(), fault);
   return fault;
 }
 

@@ -31,7 +31,7 @@ struct Compiled {
   codegen::CodeInfo generated;
   ShaderInfo info;
   std::vector<codegen::Kernel> kernels; ///< by entry
-  void (*init)(void* constants, uint32_t* fault) = nullptr;
+  codegen::Init init = nullptr;
   std::vector<ParameterSlot> slots;
   std::vector<FaultSite> sites;
   CompileTimes times;
@@ -123,7 +123,7 @@ public:
     if (compiled_->init != nullptr) {
       const DefaultFloatingPoint environment;
       uint32_t fault = 0;
-      compiled_->init(constants.bytes.get(), &fault);
+      codegen::call_init(compiled_->init, constants.bytes.get(), fault);
       if (fault != 0)
         return {nullptr, describe(compiled_->sites[fault - 1], compiled_->generated.places[fault - 1].code)};
     }
@@ -185,7 +185,7 @@ std::string load(Compiled& compiled, std::string object) {
   }
   if (compiled.generated.init_symbol.empty()) return {};
   void* init = compiled.code->function(compiled.generated.init_symbol);
-  compiled.init = reinterpret_cast<void (*)(void*, uint32_t*)>(init);
+  compiled.init = reinterpret_cast<codegen::Init>(init);
   return compiled.init == nullptr ? "the code of the top level cannot be linked" : "";
 }
 

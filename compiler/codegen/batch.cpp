@@ -69,7 +69,7 @@ void run_block(Context context, const KernelBatch& batch, uint64_t first, unsign
   context.valid = count;
   if (context.fault_codes != nullptr) context.fault_codes += first;
   const KernelBatch call{context.info->width, block.inputs.data(), block.outputs.data(), batch.constants, &context};
-  context.kernel(&call);
+  call_kernel(context.kernel, call);
   block.scatter(*context.info, batch, first, count);
 }
 
@@ -112,7 +112,7 @@ void run_batch(Kernel kernel, const KernelInfo& info, const KernelBatch& batch, 
     KernelBatch call = batch;
     call.count = whole;
     call.context = &context;
-    kernel(&call);
+    call_kernel(kernel, call);
   }
   if (whole != batch.count) run_block(context, batch, whole, static_cast<unsigned>(batch.count - whole));
 }

@@ -28,6 +28,14 @@ struct KernelBatch {
 };
 
 using Kernel = void (*)(const KernelBatch*);
+/// Fills an instance's constants; *fault is 0, or the fault's site plus 1.
+using Init = void (*)(void* constants, uint32_t* fault);
+
+/// Calls compiled code. (The sanitizer's check of a call's type reads what stands before a function: nothing, here.)
+[[clang::no_sanitize("function")]] inline void call_kernel(Kernel kernel, const KernelBatch& batch) { kernel(&batch); }
+[[clang::no_sanitize("function")]] inline void call_init(Init init, void* constants, uint32_t& fault) {
+  init(constants, &fault);
+}
 
 /// One component of an input or an output.
 struct Component {

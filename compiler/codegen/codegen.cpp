@@ -29,6 +29,11 @@ Generated& Generated::operator=(Generated&&) noexcept = default;
 
 namespace {
 
+/// Beyond this many instructions in one function, the allocation of registers by graph takes quadratic time.
+constexpr unsigned kLargeFunction = 15'000;
+/// Operations of the IR, with functions emitted in place counted at each call: beyond this nothing is generated.
+constexpr uint64_t kMaxOperations = 200'000;
+
 class Stopwatch {
 public:
   /// Milliseconds since the last call.
@@ -46,6 +51,22 @@ FunctionAttributes attributes_for(const Target& target, const Domain& domain) {
   const unsigned bits = domain.width * (domain.precision == Precision::F32 ? 32 : 64);
   attributes.wide = target.vector_bits == 512 && bits >= 512;
   return attributes;
+}
+
+/// What code for all functions of the module comes to.
+uint64_t operations(const ir::Module& module) {
+  const SizePlan plan = plan_sizes(module);
+  uint64_t sum = 0;
+  for (ir::FunctionId id = 0; id < module.functions.size(); ++id) {
+    const bool is_entry = std::ranges::find(module.entries, id, &ir::Entry::function) != module.entries.end();
+    if (is_entry || id == module.init || plan.outlined[id]) sum += plan.size[id];
+  }
+  return sum;
+}
+
+bool has_large_function(const llvm::Module& module) {
+  return std::ranges::any_of(
+      module, [](const llvm::Function& function) { return function.getInstructionCount() > kLargeFunction; });
 }
 
 void emit_module(Generated& generated, const ir::Module& module, const Options& options) {
@@ -91,7 +112,6 @@ std::string machine_code(Generated& generated, llvm::CodeGenFileType type) {
     generated.error = "the target cannot emit this kind of file";
     return {};
   }
-  // Code generation changes the module; so that it can be asked for again, it works on it only once.
   passes.run(*generated.parts->module);
   generated.times.codegen = watch.lap();
   return std::string(bytes);
@@ -124,11 +144,17 @@ Generated generate(const ir::Module& module, const Options& options) {
   parts.module = std::make_unique<llvm::Module>("shader", parts.context);
   parts.module->setTargetTriple(parts.target.machine->getTargetTriple().str());
   parts.module->setDataLayout(parts.target.machine->createDataLayout());
+  if (const uint64_t size = operations(module); size > kMaxOperations) {
+    generated.error =
+        "the shader is too large: " + std::to_string(size) + " operations, at most " + std::to_string(kMaxOperations);
+    return generated;
+  }
   emit_module(generated, module, options);
   generated.times.emit = watch.lap();
   if (!generated.error.empty()) return generated;
   optimize(*parts.module, *parts.target.machine, options.optimization);
   generated.times.optimize = watch.lap();
+  if (has_large_function(*parts.module)) parts.target.machine->setOptLevel(llvm::CodeGenOptLevel::None);
 #ifndef NDEBUG
   if (std::string complaint = verify(*parts.module); !complaint.empty())
     generated.error = "internal error: " + complaint;
