@@ -12,7 +12,7 @@ namespace {
 Function declare(const sema::Specialisation& specialisation) {
   Function function;
   function.name = specialisation.id == 0 ? "top_level" : specialisation.name;
-  if (specialisation.function != nullptr) function.span = specialisation.function->span;
+  function.span = specialisation.function->span;
   for (size_t i = 0; i < specialisation.parameters.size(); ++i) {
     if (specialisation.parameters[i].kind != sema::Type::Kind::Value) continue;
     function.parameters.push_back(specialisation.parameters[i].value);
@@ -59,10 +59,12 @@ FunctionId entry_function(Module& module, FunctionId callee, const EntryInfo& en
     Builder b(wrapper);
     b.set_span(wrapper.span);
     std::vector<ValueId> arguments;
+    arguments.reserve(wrapper.parameters.size());
     for (uint32_t i = 0; i < wrapper.parameters.size(); ++i)
       arguments.push_back(b.argument(i));
     const ValueId call = b.call(callee, results, arguments);
     std::vector<ValueId> converted;
+    converted.reserve(results.size());
     for (uint32_t i = 0; i < results.size(); ++i)
       converted.push_back(b.convert(b.result(call, i, results[i]), entry.results[i]));
     b.return_values(converted);

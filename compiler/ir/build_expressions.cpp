@@ -436,6 +436,7 @@ FunctionBuild::Values FunctionBuild::call_specialisation(const ExpressionFact& k
     if (is_value(callee.parameters[i]))
       passed.push_back(converted(i < arguments.size() ? arguments[i] : kNone, callee.parameters[i].value));
   std::vector<VariableId> captures;
+  captures.reserve(callee.captures.size());
   for (const Local* local : callee.captures)
     captures.push_back(variable_of(*local));
   const std::vector<ValueType> results = run_time_types(callee.results);

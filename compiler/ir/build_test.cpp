@@ -60,6 +60,7 @@ void expect_lanes_agree(const std::string& text) {
         for (size_t input = 0; input < entry.inputs.size(); ++input)
           uniform.push_back(input % 2 == (first_uniform ? 0 : 1));
         std::vector<std::vector<Value>> points;
+        points.reserve(kPoints);
         for (unsigned point = 0; point < kPoints; ++point) {
           points.push_back(inputs_at(entry, point));
           for (size_t input = 0; input < entry.inputs.size(); ++input)

@@ -30,9 +30,9 @@ template <class T> std::optional<T> arithmetic(Op op, T a, T b) {
 
 std::optional<double> fold_numbers(Op op, double a, double b) {
   const std::optional<double> wide = arithmetic<double>(op, a, b);
-  if (!wide || std::isnan(*wide)) return {};
-  const float narrow = *arithmetic<float>(op, static_cast<float>(a), static_cast<float>(b));
-  if (std::bit_cast<uint32_t>(narrow) != std::bit_cast<uint32_t>(static_cast<float>(*wide))) return {};
+  const std::optional<float> narrow = arithmetic<float>(op, static_cast<float>(a), static_cast<float>(b));
+  if (!wide || !narrow || std::isnan(*wide)) return {};
+  if (std::bit_cast<uint32_t>(*narrow) != std::bit_cast<uint32_t>(static_cast<float>(*wide))) return {};
   return wide;
 }
 

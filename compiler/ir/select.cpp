@@ -44,7 +44,9 @@ private:
         break;
       default: {
         const std::optional<unsigned> one = speculation_cost(instruction);
-        if (!one || (cost += *one) > kSelectCost) return {};
+        if (!one) return {};
+        cost += *one;
+        if (cost > kSelectCost) return {};
       }
       }
     }

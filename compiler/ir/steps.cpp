@@ -144,15 +144,16 @@ public:
   explicit StepBounds(const Module& module) : module_(module), bounds_(module.functions.size()) {}
 
   uint64_t of_function(FunctionId id) {
-    if (bounds_[id]) return *bounds_[id];
+    if (const std::optional<uint64_t> known = bounds_[id]) return *known;
     const Function& function = module_.functions[id];
     // The callees first: the counts of stores below are those of one function at a time.
     for_each_instruction(function, [&](ValueId value) {
       if (function.instructions[value].op == Op::Call) of_function(function.instructions[value].index);
     });
     stores_ = count_stores(function);
-    bounds_[id] = of_block(function, function.body);
-    return *bounds_[id];
+    const uint64_t bound = of_block(function, function.body);
+    bounds_[id] = bound;
+    return bound;
   }
 
 private:
@@ -251,7 +252,9 @@ private:
 
   template <class T> uint64_t run_in(const Function& function, const Counter& counter, ValueId condition) {
     CounterMachine<T> machine(function, counter.loads);
-    machine.set(*machine.evaluate(counter.start));
+    const auto start = machine.evaluate(counter.start);
+    if (!start) return kUnbounded;
+    machine.set(*start);
     if (!machine.decides(condition)) return kUnbounded;
     for (uint64_t trips = 1; budget_ != 0; ++trips, --budget_) {
       const auto leaves = machine.evaluate(condition);

@@ -84,6 +84,7 @@ private:
       return Flow::Next;
     case Op::CallLibrary: {
       std::vector<Value> operands;
+      operands.reserve(instruction.operands.size());
       for (size_t i = 0; i < instruction.operands.size(); ++i)
         operands.push_back(operand(instruction, i));
       values_[id] = call_native(*instruction.library, instruction.type, operands);
@@ -97,9 +98,11 @@ private:
 
   Flow call(ValueId id, const Instruction& instruction) {
     std::vector<Value> arguments;
+    arguments.reserve(instruction.operands.size());
     for (size_t i = 0; i < instruction.operands.size(); ++i)
       arguments.push_back(operand(instruction, i));
     std::vector<std::vector<Value>*> captures;
+    captures.reserve(instruction.variables.size());
     for (const VariableId variable : instruction.variables)
       captures.push_back(variables_[variable]);
     Activation callee(module_, module_.functions[instruction.index], globals_, outcome_, arguments, captures);
@@ -124,6 +127,7 @@ private:
       break;
     }
     std::vector<Value> operands;
+    operands.reserve(instruction.operands.size());
     for (size_t i = 0; i < instruction.operands.size(); ++i)
       operands.push_back(operand(instruction, i));
     return evaluate(instruction, operands);

@@ -142,6 +142,7 @@ private:
     values_[id].resize(varying ? lane_count() : 1);
     const auto at = [&](size_t lane) {
       std::vector<Value> operands;
+      operands.reserve(instruction.operands.size());
       for (const ValueId operand : instruction.operands) {
         promise(varying || values_[operand].size() == 1 || instruction.op == Op::Result,
                 "a uniform value has a varying operand");
@@ -165,9 +166,11 @@ private:
 
   void call(ValueId id, const Instruction& instruction) {
     std::vector<Lanes> arguments;
+    arguments.reserve(instruction.operands.size());
     for (const ValueId operand : instruction.operands)
       arguments.push_back(values_[operand]);
     std::vector<Lanes*> captures;
+    captures.reserve(instruction.variables.size());
     for (const VariableId variable : instruction.variables)
       captures.push_back(variables_[variable]);
     LanesActivation callee(machine_, instruction.index, facts_.calls.at(id), active_, arguments, captures);

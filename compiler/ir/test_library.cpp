@@ -83,6 +83,7 @@ std::vector<Value> call_native(const LibraryFunction& row, ValueType type, const
   result.type = type;
   for (unsigned i = 0; i < component_count(type); ++i) {
     std::vector<Value> parts;
+    parts.reserve(operands.size());
     for (const Value& operand : operands)
       parts.push_back(Value::of(operand.numbers[is_vector(operand.type) ? i : 0]));
     result.numbers[i] = function(parts)[0].numbers[0];

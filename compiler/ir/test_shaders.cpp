@@ -49,11 +49,10 @@ Value value_at(lua_State* state, int index) {
 } // namespace
 
 Checked check(const std::string& text) {
-  Checked checked{.sources = std::make_unique<SourceSet>(),
-                  .arena = std::make_unique<Arena>(),
-                  .diagnostics = std::make_unique<Diagnostics>(),
-                  .program = {},
-                  .errors = {}};
+  Checked checked;
+  checked.sources = std::make_unique<SourceSet>();
+  checked.arena = std::make_unique<Arena>();
+  checked.diagnostics = std::make_unique<Diagnostics>();
   const FileId file = checked.sources->add("test.lua", text);
   const syntax::Chunk* chunk = syntax::parse(*checked.sources, file, *checked.arena, *checked.diagnostics);
   if (!checked.diagnostics->has_errors()) checked.program = sema::check(*chunk, {}, *checked.diagnostics);

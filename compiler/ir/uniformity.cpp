@@ -47,6 +47,7 @@ public:
     path_.push_back({&function_.body, false, false});
     walk(function_.body);
     std::vector<Home> homes;
+    homes.reserve(function_.variables.size());
     for (VariableId variable = 0; variable < function_.variables.size(); ++variable)
       homes.push_back(home(variable));
     return homes;
@@ -106,24 +107,26 @@ private:
 
   Home home(VariableId variable) const {
     Home home;
-    if (reads_[variable])
-      for (const Enclosing& enclosing : *reads_[variable])
+    const Path& reads = reads_[variable];
+    const Path& accesses = accesses_[variable];
+    if (reads)
+      for (const Enclosing& enclosing : *reads)
         home.reads.push_back(enclosing.block);
     if (variable < function_.captures) {
       home.depth = kOutside;
       return home;
     }
-    if (!accesses_[variable]) return home;
-    const std::vector<Enclosing>& common = *accesses_[variable];
+    if (!accesses) return home;
+    const std::vector<Enclosing>& common = *accesses;
     for (size_t depth = common.size(); depth-- > 0;)
       if (!common[depth].repeated || stored_first_[variable] == static_cast<int>(depth) ||
           (stored_first_[variable] > static_cast<int>(depth) && stores_first(*common[depth].block, variable))) {
         home.depth = static_cast<int>(depth);
         break;
       }
-    if (reads_[variable])
-      for (size_t depth = reads_[variable]->size(); depth-- > static_cast<size_t>(home.depth) + 1;)
-        if ((*reads_[variable])[depth].is_loop) home.first_loop = depth;
+    if (reads)
+      for (size_t depth = reads->size(); depth-- > static_cast<size_t>(home.depth) + 1;)
+        if ((*reads)[depth].is_loop) home.first_loop = depth;
     return home;
   }
 
