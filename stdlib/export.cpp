@@ -3,32 +3,10 @@
 //
 // Exports are always inlined into compiled shaders; what they call is inlined into them, but for internal functions
 // that are rarely run.
+#include "stdlib/export_memory.h"
 #include "stdlib/signature.h"
 
 namespace moonshade::stdlib {
-
-using Lane = Wide<MS_SCALAR, MS_WIDTH>;
-
-// Values in memory: as lanes side by side, booleans as bytes.
-template <class T> struct Memory {
-  MS_INLINE static T load(const void* from) { return *static_cast<const T*>(from); }
-  MS_INLINE static void store(void* to, const T& value) { *static_cast<T*>(to) = value; }
-};
-template <class I, int W> struct Memory<LaneMask<I, W>> {
-  using Bytes = Wide<uint8_t, W>;
-  MS_INLINE static LaneMask<I, W> load(const void* from) {
-    if constexpr (W == 1)
-      return {*static_cast<const Bytes*>(from) != 0};
-    else
-      return {__builtin_convertvector(*static_cast<const Bytes*>(from) != Bytes(uint8_t(0)), Wide<I, W>)};
-  }
-  MS_INLINE static void store(void* to, const LaneMask<I, W>& value) {
-    if constexpr (W == 1)
-      *static_cast<Bytes*>(to) = value.bits;
-    else
-      *static_cast<Bytes*>(to) = __builtin_convertvector(__builtin_convertvector(value.bits, Wide<bool, W>), Bytes);
-  }
-};
 
 MS_INLINE void store_results(const auto& value, void* first) {
   Memory<std::remove_cvref_t<decltype(value)>>::store(first, value);
@@ -84,9 +62,6 @@ using namespace moonshade::stdlib;
 #define PASS_PARAMETERS_2 a0, a1
 #define PASS_PARAMETERS_3 a0, a1, a2
 #define PASS_PARAMETERS_4 a0, a1, a2, a3
-#define EXPORT_NAME__(symbol, precision, width) ms_##symbol##_##precision##_w##width
-#define EXPORT_NAME_(symbol, precision, width) EXPORT_NAME__(symbol, precision, width)
-#define EXPORT_NAME(symbol) EXPORT_NAME_(symbol, MS_PRECISION, MS_WIDTH)
 
 #define FUNCTION(name, symbol, function, type, defaults, traits, parameters, doc)                                      \
   MS_ROW(symbol, function, type)                                                                                       \

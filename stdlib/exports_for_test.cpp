@@ -4,9 +4,10 @@
 #include <cstring>
 #include <iterator>
 #include <stdexcept>
+#include <utility>
 
 // Every export, declared without its parameters: only its address is taken.
-#define FUNCTION(name, symbol, function, type, defaults, traits, parameters, doc)                                      \
+#define DECLARE(symbol)                                                                                                \
   extern "C" void ms_##symbol##_f32_w1();                                                                              \
   extern "C" void ms_##symbol##_f32_w4();                                                                              \
   extern "C" void ms_##symbol##_f32_w8();                                                                              \
@@ -17,33 +18,42 @@
   extern "C" void ms_##symbol##_f64_w8();                                                                              \
   extern "C" void ms_##symbol##_f64_w16();                                                                             \
   extern "C" void ms_##symbol##_f64_w32();
+#define FUNCTION(name, symbol, function, type, defaults, traits, parameters, doc) DECLARE(symbol)
 #include "stdlib/table.def"
+#define DERIVATIVE(symbol, suffix, parameters, pointers) DECLARE(symbol##__##suffix)
+#include "stdlib/derivatives.def"
 
 namespace moonshade::test {
 namespace {
 
 using Address = void (*)();
 
-#define FUNCTION(name, symbol, function, type, defaults, traits, parameters, doc)                                      \
+#define ADDRESSES(symbol)                                                                                              \
   {{ms_##symbol##_f32_w1, ms_##symbol##_f32_w4, ms_##symbol##_f32_w8, ms_##symbol##_f32_w16, ms_##symbol##_f32_w32},   \
    {ms_##symbol##_f64_w1, ms_##symbol##_f64_w4, ms_##symbol##_f64_w8, ms_##symbol##_f64_w16, ms_##symbol##_f64_w32}},
+#define FUNCTION(name, symbol, function, type, defaults, traits, parameters, doc) ADDRESSES(symbol)
 constexpr Address kExports[][2][kWidths.size()] = {
 #include "stdlib/table.def"
+};
+#define DERIVATIVE(symbol, suffix, parameters, pointers) ADDRESSES(symbol##__##suffix)
+constexpr Address kDerivatives[][2][kWidths.size()] = {
+#include "stdlib/derivatives.def"
 };
 
 void call(void* function, void** p, unsigned count) {
   using P = void*;
+  const auto call_with = [&]<size_t... I>(std::index_sequence<I...>) {
+    reinterpret_cast<void (*)(decltype(P(p[I]))...)>(function)(p[I]...);
+  };
   switch (count) {
-  case 2:
-    return reinterpret_cast<void (*)(P, P)>(function)(p[0], p[1]);
-  case 3:
-    return reinterpret_cast<void (*)(P, P, P)>(function)(p[0], p[1], p[2]);
-  case 4:
-    return reinterpret_cast<void (*)(P, P, P, P)>(function)(p[0], p[1], p[2], p[3]);
-  case 5:
-    return reinterpret_cast<void (*)(P, P, P, P, P)>(function)(p[0], p[1], p[2], p[3], p[4]);
-  default:
-    throw std::logic_error("an export with more parameters than the test knows");
+#define CASE(n)                                                                                                        \
+  case n:                                                                                                              \
+    return call_with(std::make_index_sequence<n>());
+    CASE(2)
+    CASE(3)
+    CASE(4) CASE(5) CASE(6) CASE(7) CASE(8) CASE(9) CASE(10) CASE(11) CASE(12) CASE(13)
+#undef CASE
+        default : throw std::logic_error("an export with more parameters than the test knows");
   }
 }
 
@@ -58,8 +68,14 @@ void* export_address(const LibraryFunction& row, Precision precision, unsigned w
   size_t w = 0;
   while (kWidths[w] != width)
     ++w;
-  size_t index = &row - library().data();
-  return reinterpret_cast<void*>(kExports[index][precision == Precision::F64][w]);
+  const bool f64 = precision == Precision::F64;
+  if (is_derivative_export(row.symbol)) {
+    size_t index = 0;
+    while (library_derivatives()[index].function.symbol != row.symbol)
+      ++index;
+    return reinterpret_cast<void*>(kDerivatives[index][f64][w]);
+  }
+  return reinterpret_cast<void*>(kExports[&row - library().data()][f64][w]);
 }
 
 unsigned component_size(ValueType type, Precision precision) {

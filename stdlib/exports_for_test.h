@@ -9,7 +9,7 @@
 
 namespace moonshade::test {
 
-/// The export of a row, as compiled from its bitcode.
+/// The export of a row of the table or of a derivative, as compiled from its bitcode.
 void* export_address(const LibraryFunction& row, Precision precision, unsigned width);
 
 /// Bytes that a lane's component takes in memory.

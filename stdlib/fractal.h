@@ -24,7 +24,8 @@ template <class L, class P, class F> MS_INLINE L octave_sum(P p, L octaves, L la
   L limit = constant<L>(kMaxOctaves), zero = constant<L>(0);
   L wanted = select(less(zero, octaves), select(less(octaves, limit), octaves, limit), zero);
   int count = greatest(convert<Int32<L>>(ceil(wanted)));
-  L sum = zero, amplitude = constant<L>(1);
+  p = joined(p, lacunarity);
+  L amplitude = joined(constant<L>(1), gain), sum = joined(zero, p, amplitude);
   for (int i = 0; i < count; ++i) {
     L next = madd(shape(noise<L>(p)), amplitude, sum);
     sum = select(less(constant<L>(i), wanted), next, sum);

@@ -31,7 +31,7 @@ inline constexpr std::array<unsigned, 5> kWidths = {1, 4, 8, 16, 32};
 /// One overload of a function of the library.
 struct LibraryFunction {
   static constexpr unsigned kMaxParameters = 8;
-  static constexpr unsigned kMaxResults = 4;
+  static constexpr unsigned kMaxResults = 10;
 
   /// As Lua writes it: "noise", "math.sin". Operators that are more than one instruction begin with "op.": "op.mod".
   std::string_view name;
@@ -57,8 +57,31 @@ std::span<const LibraryFunction> library();
 /// The overloads of `name`; empty where the library has no such function.
 std::span<const LibraryFunction> library_overloads(std::string_view name);
 
-/// The bitcode of all exports for one domain. Static storage.
+/// A row's derivative as a function of its own: the row's parameters; results are the row's result and, for each
+/// component of the parameters that it differentiates by, in order, the result's derivative by that component (of the
+/// result's type). Its exports are of their own too (derivative_bitcode). A componentwise row's is for numbers.
+struct LibraryDerivative {
+  LibraryFunction function;
+  const LibraryFunction* row;
+  /// A bit for each parameter, the first in the lowest.
+  unsigned parameters;
+  /// By component of those parameters: a bit for each component of the result that can depend on it.
+  std::array<uint16_t, LibraryFunction::kMaxResults - 1> used;
+};
+
+/// All of them. The first call makes the table.
+std::span<const LibraryDerivative> library_derivatives();
+
+/// The cheapest derivative of `row` by at least those of `parameters` by which it is not zero everywhere; null where it
+/// is. (dual.h states what derivatives are at kinks.)
+const LibraryDerivative* library_derivative(const LibraryFunction& row, unsigned parameters);
+
+/// The bitcode of all exports for one domain, without and of the derivatives. Static storage.
 std::span<const char> library_bitcode(Precision precision, unsigned width);
+std::span<const char> derivative_bitcode(Precision precision, unsigned width);
+
+/// Whether an export's name is that of a derivative: ms_<symbol>__<suffix>_<f32|f64>_w<W>.
+constexpr bool is_derivative_export(std::string_view name) { return name.find("__") != std::string_view::npos; }
 
 /// A C function that the bitcode calls by name (the C library's own sin, pow, ... under names of ours, so that no
 /// optimiser takes them for the functions it knows and rounds them another way).

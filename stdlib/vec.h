@@ -23,7 +23,7 @@ template <int N, class L> MS_INLINE L component(const Vec<N, L>& v, int i) { ret
 template <class L> MS_INLINE L component(L x, int) { return x; }
 
 template <int N, class L, class F, class... A> MS_INLINE Vec<N, L> map(F f, const A&... arguments) {
-  return [&]<size_t... I>(std::index_sequence<I...>) {
+  return [&]<size_t... I>(std::index_sequence<I...>) __attribute__((always_inline)) {
     auto at = [&](int i) __attribute__((always_inline)) { return f(component(arguments, i)...); };
     return Vec<N, L>{{at(int(I))...}};
   }(std::make_index_sequence<N>());

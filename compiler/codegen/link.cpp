@@ -12,20 +12,23 @@ namespace moonshade::codegen {
 
 namespace {
 
-bool is_export_of(const llvm::Function& function, unsigned width) {
+/// Derivatives have bitcode of their own.
+bool is_export_of(const llvm::Function& function, unsigned width, bool derivative) {
   return function.isDeclaration() && function.getName().starts_with("ms_") &&
-         function.getName().ends_with("_w" + std::to_string(width));
+         function.getName().ends_with("_w" + std::to_string(width)) &&
+         is_derivative_export(function.getName()) == derivative;
 }
 
-bool needs_width(const llvm::Module& module, unsigned width) {
+bool needs_width(const llvm::Module& module, unsigned width, bool derivatives) {
   for (const llvm::Function& function : module)
-    if (is_export_of(function, width)) return true;
+    if (is_export_of(function, width, derivatives)) return true;
   return false;
 }
 
-void link_width(llvm::Module& module, Precision precision, unsigned width, std::string& error) {
-  if (!needs_width(module, width)) return;
-  const std::span<const char> bitcode = library_bitcode(precision, width);
+void link_width(llvm::Module& module, Precision precision, unsigned width, bool derivatives, std::string& error) {
+  if (!error.empty() || !needs_width(module, width, derivatives)) return;
+  const std::span<const char> bitcode =
+      derivatives ? derivative_bitcode(precision, width) : library_bitcode(precision, width);
   const llvm::MemoryBufferRef buffer(llvm::StringRef(bitcode.data(), bitcode.size()), "library");
   auto library = llvm::getLazyBitcodeModule(buffer, module.getContext());
   if (!library) {
@@ -45,8 +48,10 @@ void link_library(llvm::Module& module, const Domain& domain, const FunctionAttr
   std::vector<std::string> own;
   for (const llvm::Function& function : module)
     if (!function.isDeclaration()) own.push_back(function.getName().str());
-  link_width(module, domain.precision, domain.width, error);
-  if (domain.width != 1 && error.empty()) link_width(module, domain.precision, 1, error);
+  for (const bool derivatives : {false, true}) {
+    link_width(module, domain.precision, domain.width, derivatives, error);
+    if (domain.width != 1) link_width(module, domain.precision, 1, derivatives, error);
+  }
   if (!error.empty()) return;
   const std::set<std::string> known(own.begin(), own.end());
   for (llvm::GlobalVariable& variable : module.globals())

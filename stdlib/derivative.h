@@ -1,0 +1,68 @@
+// A row of the table over dual numbers: its result and the derivatives by the components of some of its parameters.
+#pragma once
+
+#include "stdlib/dual.h"
+#include "stdlib/signature.h"
+
+#include <tuple>
+
+namespace moonshade::stdlib {
+
+/// Components of a parameter's or result's C++ type; 0 for integers and booleans, which have no derivative.
+template <class L, class T> inline constexpr int components_of = std::is_same_v<T, L> ? 1 : 0;
+template <class L, int N> inline constexpr int components_of<L, Vec<N, L>> = N;
+
+/// Row (of MS_ROW) over the plain lane L, by the parameters whose bits are set in Active.
+template <class Row, unsigned Active, class L, class Type = typename Row::template Of<L>::Type> class Derivative;
+
+template <class Row, unsigned Active, class L, class R, class... A> class Derivative<Row, Active, L, R(A...)> {
+  static constexpr int first_column(size_t parameter) {
+    constexpr int sizes[sizeof...(A)] = {components_of<L, A>...};
+    int sum = 0;
+    for (size_t i = 0; i < parameter; ++i)
+      sum += (Active >> i & 1) != 0 ? sizes[i] : 0;
+    return sum;
+  }
+
+public:
+  static constexpr unsigned parameter_count = sizeof...(A);
+  /// A column is the result's derivative by one component of one parameter, in order.
+  static constexpr int columns = first_column(sizeof...(A));
+  static constexpr unsigned pointers = 1 + columns + parameter_count;
+  using Result = R;
+  using D = Dual<L, columns>;
+  static_assert(columns > 0 && (Active >> parameter_count) == 0, "derivatives.def: no such parameters");
+
+  /// The result over dual numbers.
+  MS_INLINE static auto of(const A&... arguments) {
+    return [&]<size_t... I>(std::index_sequence<I...>) __attribute__((always_inline)) {
+      return Row::template Of<D>::call(seed<I>(arguments)...);
+    }(std::index_sequence_for<A...>());
+  }
+  /// The column of the result.
+  MS_INLINE static L column(const D& result, int k) { return result.d[k]; }
+  template <int N> MS_INLINE static Vec<N, L> column(const Vec<N, D>& result, int k) {
+    return map<N, L>([k](const D& x) __attribute__((always_inline)) { return x.d[k]; }, result);
+  }
+  MS_INLINE static L value(const D& result) { return result.v; }
+  template <int N> MS_INLINE static Vec<N, L> value(const Vec<N, D>& result) {
+    return map<N, L>([](const D& x) __attribute__((always_inline)) { return x.v; }, result);
+  }
+
+private:
+  template <size_t I> MS_INLINE static D seed(const L& number, int component = 0) {
+    D result = D::of(number);
+    if constexpr ((Active >> I & 1) != 0) {
+      result.active = 1u << (first_column(I) + component);
+      result.d[first_column(I) + component] = constant<L>(1);
+    }
+    return result;
+  }
+  template <size_t I, int N> MS_INLINE static Vec<N, D> seed(const Vec<N, L>& v) {
+    return [&]<size_t... C>(std::index_sequence<C...>) __attribute__((always_inline)) {
+      return Vec<N, D>{{seed<I>(v[C], int(C))...}};
+    }(std::make_index_sequence<N>());
+  }
+};
+
+} // namespace moonshade::stdlib
