@@ -21,7 +21,7 @@ Wavefront::Wavefront(const PreparedScene& scene, size_t capacity)
 }
 
 void Wavefront::run(const Task& task, Vec3* radiance) {
-  last_ = std::chrono::steady_clock::now();
+  last_ = thread_seconds();
   generate(task);
   stats_.film_seconds += lap();
   while (!active_.empty()) {
@@ -108,12 +108,12 @@ void Wavefront::shade_run(uint32_t index, size_t begin, size_t end) {
     fill_inputs(material.needs, k);
   }
   stats_.shading_points += end - begin;
-  auto shaders_start = std::chrono::steady_clock::now();
+  double shaders_start = thread_seconds();
   if (material.height) scene_.materials.bend(material, batch_, begin, end - begin, targets_.data() + begin, faults_);
   for (size_t k = begin; k < end; ++k)
     fill_normal(k);
   scene_.materials.shade(material, batch_, begin, end - begin, faults_);
-  stats_.shader_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - shaders_start).count();
+  stats_.shader_seconds += thread_seconds() - shaders_start;
   if (settings_.integrator == IntegratorKind::Path)
     scatter_path(material, begin, end);
   else

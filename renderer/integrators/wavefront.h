@@ -12,7 +12,7 @@
 #include "renderer/prepared_scene.h"
 #include "renderer/sampling/sampler.h"
 
-#include <chrono>
+#include <ctime>
 #include <vector>
 
 namespace moonshade::renderer {
@@ -70,10 +70,15 @@ private:
   uint32_t dimension(const Path& path, Draw draw) const { return 1 + path.segments * kDrawCount + draw; }
   void deliver(const Task& task, Vec3* radiance);
 
+  /// What this thread has run so far; waiting for a core does not count.
+  static double thread_seconds() {
+    timespec time{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    return double(time.tv_sec) + 1e-9 * double(time.tv_nsec);
+  }
   /// Time since the last lap, in seconds.
   double lap() {
-    auto now = std::chrono::steady_clock::now();
-    double seconds = std::chrono::duration<double>(now - last_).count();
+    double now = thread_seconds(), seconds = now - last_;
     last_ = now;
     return seconds;
   }
@@ -84,7 +89,7 @@ private:
   ShadingBatch batch_;
   WorkerStats stats_;
   FaultLog faults_;
-  std::chrono::steady_clock::time_point last_;
+  double last_ = 0;
 
   std::vector<Path> paths_;
   std::vector<uint32_t> active_;
