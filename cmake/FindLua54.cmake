@@ -1,0 +1,13 @@
+# Stock Lua 5.4: target Lua54::lua, and Lua54::headers for modules that a Lua program loads.
+find_path(LUA54_INCLUDE_DIR lua.h PATH_SUFFIXES lua5.4 lua-5.4)
+find_library(LUA54_LIBRARY NAMES lua5.4 lua-5.4)
+include(FindPackageHandleStandardArgs)
+find_package_handle_standard_args(Lua54 REQUIRED_VARS LUA54_LIBRARY LUA54_INCLUDE_DIR)
+if(Lua54_FOUND AND NOT TARGET Lua54::lua)
+  add_library(Lua54::headers INTERFACE IMPORTED GLOBAL)
+  target_include_directories(Lua54::headers SYSTEM INTERFACE ${LUA54_INCLUDE_DIR})
+  add_library(Lua54::lua UNKNOWN IMPORTED GLOBAL)
+  set_target_properties(Lua54::lua PROPERTIES IMPORTED_LOCATION ${LUA54_LIBRARY})
+  target_link_libraries(Lua54::lua INTERFACE Lua54::headers)
+endif()
+mark_as_advanced(LUA54_INCLUDE_DIR LUA54_LIBRARY)
