@@ -9,13 +9,13 @@ local VERDIGRIS <const> = rgb(0.17, 0.47, 0.38)
 
 -- 0 on the hammered face, falling to -1 at the bottom of a pit
 local function relief(p)
-  return -smoothstep(0.05, 0.95, turbulence(p * scale, 5))
+  return -smoothstep(0.15, 1.05, turbulence(p * scale, 4))
 end
 
 -- how much of the metal the corrosion has eaten, 0 to 1
 local function patina(p)
-  local pit = smoothstep(-0.22, -0.5, relief(p))
-  return corrosion * pit * smoothstep(-0.7, 0.5, noise(p * scale * 2.7) + 0.6)
+  local pit = smoothstep(-0.25, -0.55, relief(p))
+  return corrosion * pit * smoothstep(-0.4, 0.5, noise(p * scale * 1.7) + 0.35)
 end
 
 function height(p)
@@ -23,7 +23,7 @@ function height(p)
 end
 
 function color(p)
-  local metal = mix(COPPER, TARNISH, smoothstep(-0.08, -0.35, relief(p)))
+  local metal = mix(COPPER, TARNISH, smoothstep(-0.08, -0.4, relief(p)))
   local crust = VERDIGRIS * (0.8 + 0.35 * noise(p * scale * 9))
   return mix(metal, crust, patina(p))
 end
@@ -33,5 +33,5 @@ function metallic(p)
 end
 
 function roughness(p)
-  return mix(0.32, 0.95, patina(p))
+  return mix(0.42, 0.95, patina(p))
 end

@@ -20,5 +20,5 @@ function color(p)
 end
 
 function roughness(p)
-  return 0.22 + 0.2 * vein(p)
+  return 0.3 + 0.2 * vein(p)
 end

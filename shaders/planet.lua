@@ -1,8 +1,8 @@
 -- planet.lua: oceans, coasts and snow, all from one height function that colour and bump share
 local scale  = param("scale", 1.4, { min = 0.1, max = 20, doc = "continents a radius" })
 local sea    = param("sea", 0.05, { min = -1, max = 1, doc = "sea level" })
-local relief = param("relief", 0.10, { min = 0, max = 1, doc = "height of the mountains" })
-local snow   = param("snow", 0.42, { min = -1, max = 2, doc = "height of the snow line at the equator" })
+local relief = param("relief", 0.07, { min = 0, max = 1, doc = "height of the mountains" })
+local snow   = param("snow", 0.50, { min = -1, max = 2, doc = "height of the snow line at the equator" })
 
 local DEEP    <const> = rgb(0.010, 0.035, 0.120)
 local SHALLOW <const> = rgb(0.030, 0.200, 0.300)
@@ -28,9 +28,9 @@ function color(p)
   end
   local ragged = h + 0.06 * noise(p * scale * 14)
   local latitude = abs(normalize(p).y)
-  local line = snow - 0.55 * latitude * latitude * latitude
+  local line = snow - 0.45 * latitude * latitude * latitude
   local land = mix(SAND, GRASS, smoothstep(0.012, 0.045, ragged))
-  land = mix(land, ROCK, smoothstep(0.16, 0.32, ragged))
+  land = mix(land, ROCK, smoothstep(0.18, 0.40, ragged))
   return mix(land, SNOW, smoothstep(line, line + 0.05, ragged))
 end
 

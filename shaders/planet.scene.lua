@@ -1,6 +1,6 @@
 -- A planet with oceans, coasts and snow from one height function (the paper's third figure).
 camera { from = { 0, 0.55, 4.2 }, to = { 0, 0, 0 }, fov = 30 }
-render { width = 960, height = 720, samples = 64 }
+render { width = 960, height = 720, samples = 128 }
 
 local planet = material { name = "planet", shader = "planet.lua" }
 sphere { radius = 1, material = planet, rotate = { 12, 40, 0 } }

@@ -1,6 +1,6 @@
 -- Reflections on a bumpy surface (the paper's first figure): three shaded balls over dark, rippled water.
 camera { from = { 0, 1.15, 5.2 }, to = { 0, 0.55, 0 }, fov = 38 }
-render { width = 960, height = 720, samples = 128, tonemap = "filmic" }
+render { width = 960, height = 720, samples = 128, tonemap = "filmic", clamp = 12 }
 
 local water = material { name = "water", shader = "ripples.lua" }
 local copper = material { name = "copper", shader = "copper.lua" }
