@@ -60,6 +60,7 @@ ShaderFile& RuntimeShaders::open(const std::string& file) {
 std::string merge(const ShaderInfo& info, const std::map<std::string, Constant>& parameters,
                   const std::map<std::string, std::string>& overrides, std::map<std::string, Constant>& merged) {
   std::vector<std::string_view> names;
+  names.reserve(info.parameters.size());
   for (const ParameterInfo& p : info.parameters)
     names.push_back(p.name);
   auto find = [&](const std::string& name) -> const ParameterInfo* {

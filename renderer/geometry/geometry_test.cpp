@@ -1,0 +1,126 @@
+#include "renderer/geometry/geometry.h"
+
+#include "renderer/sampling/sampler.h"
+#include "renderer/sampling/warp.h"
+#include "renderer/test_support.h"
+
+#include <gtest/gtest.h>
+
+namespace moonshade::renderer {
+namespace {
+
+struct World {
+  Scene scene;
+  std::unique_ptr<Geometry> geometry;
+
+  explicit World(const std::string& text) {
+    SceneReading reading = parse_lua_scene("s.lua", text, Folders());
+    EXPECT_TRUE(reading.scene) << reading.error;
+    scene = std::move(*reading.scene);
+    std::string error;
+    geometry = Geometry::build(scene, error);
+    EXPECT_EQ(error, "");
+  }
+  std::optional<SurfacePoint> meet(const Vec3& from, const Vec3& towards) const {
+    Ray ray{from, 0, glm::normalize(towards - from), kInfinity};
+    Hit hit;
+    geometry->closest({&ray, 1}, &hit);
+    return hit.found() ? std::optional(geometry->surface(ray, hit)) : std::nullopt;
+  }
+};
+
+Vec3 direction(uint32_t k) {
+  Vec2 u = Sampler(1, k, 0).two(0);
+  float z = 1 - 2 * u.x, r = std::sqrt(std::max(0.0f, 1 - z * z));
+  return {r * std::cos(2 * kPi * u.y), r * std::sin(2 * kPi * u.y), z};
+}
+
+TEST(Geometry, SpheresAreMetWhereTheyAre) {
+  World world("sphere{ center = {1, 2, 3}, radius = 0.5, scale = {1, 2, 1} }"); // scale moves the centre, too
+  auto point = world.meet({10, 4, 3}, {1, 4, 3});
+  ASSERT_TRUE(point);
+  EXPECT_NEAR(point->world.x, 1.5f, 1e-5f);
+  EXPECT_NEAR(point->local.x, 0.5f, 1e-5f); // measured from the centre, in the sphere's own units
+  EXPECT_NEAR(point->distance, 8.5f, 1e-5f);
+  EXPECT_NEAR(glm::distance(point->geometric_normal, Vec3(1, 0, 0)), 0, 1e-5f);
+  EXPECT_FALSE(world.meet({10, 5.1f, 3}, {1, 5.1f, 3}));
+  // From inside, the far side; the normal still points outward.
+  point = world.meet({1, 4, 3}, {9, 4, 3});
+  ASSERT_TRUE(point);
+  EXPECT_NEAR(point->world.x, 1.5f, 1e-5f);
+  EXPECT_GT(point->geometric_normal.x, 0.99f);
+}
+
+TEST(Geometry, DerivativesAreThoseOfThePoint) {
+  // P(uv + d) - P(uv) against dpdu * d.x + dpdv * d.y, over pairs of neighbouring hits.
+  for (const char* text : {"sphere{ radius = 2, rotate = {20, 30, 40}, scale = {1, 1.5, 0.7} }",
+                           "rectangle{ u = {2, 0, 1}, v = {0, 3, -1}, rotate = {10, 20, 30} }",
+                           "box{ size = {1, 2, 3}, scale = {-1, 1, 1} }"}) {
+    World world(text);
+    int compared = 0;
+    for (uint32_t k = 0; k < 200; ++k) {
+      Vec3 from = direction(k) * 20.0f, towards = direction(k + 1000) * 0.5f;
+      auto a = world.meet(from, towards), b = world.meet(from, towards + direction(k + 5000) * 1e-3f);
+      if (!a || !b || glm::dot(a->geometric_normal, b->geometric_normal) < 0.999f || glm::distance(a->uv, b->uv) > 0.1f)
+        continue;
+      // Near the poles u runs fast and the difference is no derivative.
+      if (a->uv.y > 0.9f || a->uv.y < 0.1f) continue;
+      Vec2 d = b->uv - a->uv;
+      Vec3 expected = b->world - a->world;
+      EXPECT_LT(glm::distance(a->dpdu * d.x + a->dpdv * d.y, expected), 0.05f * glm::length(expected) + 1e-5f) << text;
+      ++compared;
+    }
+    EXPECT_GT(compared, 40) << text;
+  }
+}
+
+TEST(Geometry, SurfacesDoNotShadowThemselves) {
+  for (const char* text :
+       {"sphere{ radius = 0.5 }", "sphere{ radius = 1000 }", "sphere{ center = {5000, -3000, 100}, radius = 0.5 }",
+        "sphere{ radius = 1, scale = {1, 100, 0.1}, translate = {50, 0, 0} }",
+        "plane{ size = 2000, normal = {1, 2, 3} }", "box{ size = 1, translate = {10000, 0, 0}, rotate = {10, 20, 30} }",
+        "box{ size = 0.001, rotate = {10, 20, 30} }"}) {
+    World world(text);
+    Vec3 center = world.geometry->bounds().center();
+    float reach = world.geometry->bounds().radius();
+    int met = 0;
+    for (uint32_t k = 0; k < 2000; ++k) {
+      auto point = world.meet(center + direction(k) * (3 * reach), center + direction(k + 10000) * (0.3f * reach));
+      if (!point) continue;
+      ++met;
+      Vec3 up = point->geometric_normal;
+      Vec3 viewer = direction(k);
+      if (glm::dot(up, viewer) < 0) up = -up;
+      if (std::string(text).find("plane") == std::string::npos) up = point->geometric_normal;
+      Vec3 out = Frame(up).to_world(sample_cosine_hemisphere(Sampler(2, k, 0).two(1)));
+      Ray next{point->world + up * point->offset, 0, out, kInfinity};
+      uint8_t blocked = 0;
+      world.geometry->occluded({&next, 1}, &blocked);
+      EXPECT_FALSE(blocked) << text << " " << k;
+    }
+    EXPECT_GT(met, 20) << text; // rays seldom meet the thin one
+  }
+}
+
+TEST(Geometry, MirroredMeshesKeepTheirOutside) {
+  for (const char* text : {"box{}", "box{ scale = {-1, 1, 1} }", "box{ scale = {-1, -1, -1} }"}) {
+    World world(text);
+    auto point = world.meet({5, 0.1f, 0.2f}, {0, 0.1f, 0.2f});
+    ASSERT_TRUE(point);
+    EXPECT_GT(point->geometric_normal.x, 0.99f) << text;
+    EXPECT_GT(point->shading_normal.x, 0.99f) << text;
+  }
+}
+
+TEST(Geometry, ShadowRaysEndAtTheirEnd) {
+  World world("sphere{ center = {0, 0, 10} }");
+  Ray shorter{{0, 0, 0}, 0, {0, 0, 1}, 8.9f}, longer{{0, 0, 0}, 0, {0, 0, 1}, 9.1f};
+  Ray rays[2] = {shorter, longer};
+  uint8_t blocked[2];
+  world.geometry->occluded(rays, blocked);
+  EXPECT_FALSE(blocked[0]);
+  EXPECT_TRUE(blocked[1]);
+}
+
+} // namespace
+} // namespace moonshade::renderer
