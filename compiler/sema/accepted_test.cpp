@@ -185,6 +185,13 @@ TEST(Accepted, LocalsNameFunctions) {
               "function height(p) return h(p.x) + floor(p.y) + (function(x) return x end)(1) end"));
 }
 
+TEST(Accepted, FunctionsMayBeDeclaredFirst) {
+  EXPECT_ACCEPTED(Checked("local f, g\nfunction height(p) return f(p.x) + g(p.y) end\n"
+                          "function f(x) return g(x) end\ng = sin"));
+  EXPECT_ACCEPTED(Checked("function height(p)\n  local k = p.x\n  local f\n  f = function(x) return x * k end\n"
+                          "  local g\n  g = f\n  return g(2)\nend"));
+}
+
 TEST(Accepted, GlobalVariablesOfTheTopLevel) {
   const Checked checked("size = 2\nsize = size * 1.5\nfunction height(p) return size * p.x end");
   ASSERT_EQ(checked.text, "");

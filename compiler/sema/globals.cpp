@@ -2,6 +2,8 @@
 // of the top level define anything.
 #include "compiler/sema/globals.h"
 
+#include <utility>
+
 namespace moonshade::sema {
 
 using namespace syntax;
@@ -13,12 +15,26 @@ public:
   explicit Collector(Globals& globals) : globals_(globals) {}
 
   void block(const Block& block, bool certain) {
+    const Block* const around = std::exchange(block_, &block);
     for (const Stat* stat : block.stats)
       statement(*stat, certain);
+    block_ = around;
   }
 
 private:
+  void assign_local(const Local& local) {
+    const auto declared = declared_in_.find(&local);
+    if (declared == declared_in_.end()) return;
+    const bool is_first = assigned_.insert(&local).second;
+    if (is_first && declared->second == block_) {
+      globals_.assigned_once.insert(&local);
+    } else {
+      globals_.assigned_once.erase(&local);
+    }
+  }
+
   void define(const NameExpr& target, const Function* function, bool certain) {
+    if (target.local != nullptr) assign_local(*target.local);
     if (!target.is_global() || target.environment != nullptr) return;
     if (function_depth_ != 0) {
       globals_.assigned_inside.insert(target.name);
@@ -99,7 +115,12 @@ private:
 
   void statement(const Stat& stat, bool certain) {
     visit(stat, Overloaded{
-                    [&](const LocalStat& local) { expressions(local.values); },
+                    [&](const LocalStat& local) {
+                      expressions(local.values);
+                      if (!local.values.empty()) return;
+                      for (const Local* each : local.locals)
+                        declared_in_[each] = block_;
+                    },
                     [&](const AssignStat& assign) { assignment(assign, certain); },
                     [&](const CallStat& call) { expression(call.call); },
                     [&](const DoStat& body) { block(*body.body, certain); },
@@ -151,6 +172,9 @@ public:
 private:
   Globals& globals_;
   unsigned function_depth_ = 0;
+  const Block* block_ = nullptr;
+  std::unordered_map<const Local*, const Block*> declared_in_; ///< of those declared without a value
+  std::set<const Local*> assigned_;
   std::vector<std::string_view> used_;
 };
 

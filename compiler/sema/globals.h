@@ -1,6 +1,6 @@
-// The global variables of a shader, from one look over the syntax: who defines them, where, and whether anything uses
-// them. A global that is defined once, by a function at the top level, stands for that function; any other is a
-// variable.
+// Facts about names from one look over the syntax, above all the global variables of a shader: who defines them, where,
+// and whether anything uses them. A global that is defined once, by a function at the top level, stands for that
+// function; any other is a variable.
 #pragma once
 
 #include "compiler/sema/types.h"
@@ -42,6 +42,9 @@ struct Globals {
   std::vector<Global*> functions;
   /// Names that only functions assign, which is refused there.
   std::set<std::string_view> assigned_inside;
+  /// Locals declared without a value and assigned once, in the block of the declaration: such a one may stand for a
+  /// function (`local f ... function f() end`), which then captures nothing that lives shorter than the name.
+  std::set<const syntax::Local*> assigned_once;
 
   Global* find(std::string_view name) {
     const auto found = by_name.find(name);

@@ -118,12 +118,16 @@ INSTANTIATE_TEST_SUITE_P(
            Refusal{"if param('a', true) then function $f() return 1 end end", {"depends-on-parameter"}},
            Refusal{"if param('a', true) then return end\nfunction $height(p) return 1 end", {"function-not-known"}},
            Refusal{"do\n  goto done\n  function $height(p) return 1 end\n  ::done::\nend", {"function-not-known"}},
+           Refusal{"function height(p)\n  local f\n  $f = sin\n  $f = cos\n  return f(1)\nend",
+                   {"function-not-known", "function-not-known"}},
+           Refusal{"local f\nlocal x = $f(1)\nfunction f(x) return x end", {"unassigned-variable"}},
            Refusal{"for i = 1, 2 do function $f() return 1 end end", {"function-not-known"}},
            Refusal{"local fancy = param('fancy', true)\nlocal much = fancy and 2 or 1\nlocal f\n"
                    "if much > 1 then\n  $f = function(x) return x end\nelse\n  $f = sin\nend",
                    {"depends-on-parameter", "depends-on-parameter"}},
            Refusal{"local fancy = param('fancy', true)\nlocal f = $fancy and sin or cos", {"depends-on-parameter"}},
-           Refusal{"function height(p)\n  local f\n  $f = function() return 1 end\n  return f()\nend",
+           Refusal{"function height(p)\n  local f\n  do local k = 1 $f = function() return k end end\n"
+                   "  return f()\nend",
                    {"function-not-known"}},
            Refusal{"function height(p)\n  local f = function() return 1 end\n  $f = function() return 2 end\n"
                    "  return 1\nend",

@@ -171,7 +171,8 @@ void Walker::assign_name(const AssignStat& stat, const NameExpr& target, const T
       if (context_.report) work_.top_level_writes.push_back({&local, stat.span});
       return;
     }
-    if (is_function(type) || is_function(variable_of(local).type)) {
+    const bool is_declaration = context_.globals.assigned_once.contains(&local);
+    if (!is_declaration && (is_function(type) || is_function(variable_of(local).type))) {
       refuse_function(stat.span, text, &given);
       return;
     }
@@ -265,6 +266,8 @@ void Walker::define_function(const FunctionStat& stat) {
   if (name->local != nullptr) {
     if (name->local->function == context_.chunk.main && !at_top_level()) {
       if (context_.report) work_.top_level_writes.push_back({name->local, stat.span});
+    } else if (context_.globals.assigned_once.contains(name->local)) {
+      give(variable_of(*name->local), function_type(stat.function), name->span, nullptr, text);
     } else {
       refuse_function(stat.span, text, nullptr);
     }
