@@ -159,6 +159,17 @@ std::string diagnostics_text(const CheckedShader& shader, bool color) {
   return text.str();
 }
 
+/// What code generation refused, as a diagnostic of the file where it concerns the shader.
+std::string refusal(const CheckedShader& shader, const codegen::Generated& generated, bool color) {
+  if (generated.exceeded_limit == 0) return "error: " + generated.error + "\n";
+  Diagnostics diagnostics;
+  diagnostics.report(DiagnosticCode::TooLarge, Span{FileId{0}, 0, 0},
+                     {generated.error, std::to_string(generated.exceeded_limit)});
+  std::ostringstream text;
+  print_text(diagnostics, shader.sources(), text, color);
+  return text.str();
+}
+
 FaultSite resolve(const SourceSet& sources, const codegen::FaultPlaceInfo& place) {
   if (!place.span.has_place()) return {"", 0, 0, place.message};
   const LineColumn position = sources.position(place.span.file, place.span.begin);
@@ -208,7 +219,7 @@ Compilation compile(const CheckedShader& shader, const CompileOptions& options) 
   watch.lap();
   std::string object;
   if (generated.error.empty()) object = generated.object();
-  if (!generated.error.empty()) return {nullptr, diagnostics + "error: " + generated.error + "\n"};
+  if (!generated.error.empty()) return {nullptr, diagnostics + refusal(shader, generated, options.color_diagnostics)};
   compiled->generated = std::move(generated.info);
   compiled->info = compiled_info(shader.info(), module);
   for (size_t i = 0; i < module.globals.size(); ++i)

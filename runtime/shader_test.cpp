@@ -86,6 +86,36 @@ TEST(CompiledShader, ReportsDiagnosticsInsteadOfAProgram) {
   EXPECT_THAT(compilation.diagnostics, HasSubstr("bad.lua:2:10: error: "));
 }
 
+TEST(CompiledShader, RefusesWhatIsTooLarge) {
+  std::string text = "function roughness(p)\n  local x = p.x\n";
+  for (int i = 0; i < 60'000; ++i)
+    text += "  x = x * p.y + p.z * 0.5 - x * x * p.z\n";
+  const Compilation compilation = compile("large.lua", text + "  return x\nend\n", {});
+  EXPECT_EQ(compilation.program, nullptr);
+  EXPECT_THAT(compilation.diagnostics, HasSubstr("large.lua:"));
+  EXPECT_THAT(compilation.diagnostics, HasSubstr("operations (limit "));
+  EXPECT_THAT(compilation.diagnostics, HasSubstr("too-large"));
+}
+
+TEST(CompiledShader, RefusesWhatTakesTooMuchStack) {
+  // many values that live together, and a function so long that its registers are allocated the quick way
+  std::string text = "function roughness(p)\n  local x = p.x\n";
+  for (int block = 0; block < 200; ++block) {
+    text += "  do\n";
+    for (int i = 0; i < 100; ++i)
+      text += "    local v" + std::to_string(i) + " = sin(x + " + std::to_string(i) + ")\n";
+    for (int i = 0; i < 100; ++i)
+      text += "    x = x + v" + std::to_string(i) + " * x\n";
+    text += "  end\n";
+  }
+  CompileOptions options;
+  options.width = 32;
+  options.optimization = 0;
+  const Compilation compilation = compile("deep.lua", text + "  return x\nend\n", options);
+  EXPECT_EQ(compilation.program, nullptr);
+  EXPECT_THAT(compilation.diagnostics, HasSubstr("bytes of stack (limit "));
+}
+
 TEST(CompiledShader, SaysWhereTheFirstPointFaulted) {
   CompileOptions options;
   options.width = 8;

@@ -8,6 +8,8 @@
 #include "compiler/codegen/target.h"
 
 #include <llvm/ADT/SmallString.h>
+#include <llvm/IR/DiagnosticInfo.h>
+#include <llvm/IR/DiagnosticPrinter.h>
 #include <llvm/IR/LegacyPassManager.h>
 #include <llvm/Support/raw_ostream.h>
 
@@ -18,6 +20,8 @@ namespace moonshade::codegen {
 
 struct Generated::Parts {
   Target target;
+  std::string complaint; ///< of LLVM's code generator
+  uint64_t stack = 0;    ///< of a function that takes too much of it
   llvm::LLVMContext context;
   std::unique_ptr<llvm::Module> module;
 };
@@ -34,6 +38,20 @@ constexpr unsigned kLargeFunction = 15'000;
 /// Operations of the IR, with functions emitted in place counted at each call: beyond this nothing is generated.
 constexpr uint64_t kMaxOperations = 200'000;
 
+/// Bytes of stack for one function.
+constexpr uint64_t kMaxStack = uint64_t{1} << 20;
+
+/// What LLVM has to say while it generates code. (Its own handler would print, and end the process.)
+void listen(const llvm::DiagnosticInfo* diagnostic, void* context) {
+  auto& parts = *static_cast<Generated::Parts*>(context);
+  if (diagnostic->getKind() == llvm::DK_StackSize)
+    parts.stack = std::max(parts.stack, llvm::cast<llvm::DiagnosticInfoStackSize>(diagnostic)->getStackSize());
+  if (diagnostic->getSeverity() != llvm::DS_Error || !parts.complaint.empty()) return;
+  llvm::raw_string_ostream stream(parts.complaint);
+  llvm::DiagnosticPrinterRawOStream printer(stream);
+  diagnostic->print(printer);
+}
+
 class Stopwatch {
 public:
   /// Milliseconds since the last call.
@@ -47,7 +65,7 @@ private:
 };
 
 FunctionAttributes attributes_for(const Target& target, const Domain& domain) {
-  FunctionAttributes attributes{target.cpu, target.features, false};
+  FunctionAttributes attributes{target.cpu, target.features, false, kMaxStack};
   const unsigned bits = domain.width * (domain.precision == Precision::F32 ? 32 : 64);
   attributes.wide = target.vector_bits == 512 && bits >= 512;
   return attributes;
@@ -114,7 +132,12 @@ std::string machine_code(Generated& generated, llvm::CodeGenFileType type) {
   }
   passes.run(*generated.parts->module);
   generated.times.codegen = watch.lap();
-  return std::string(bytes);
+  if (!generated.parts->complaint.empty()) generated.error = generated.parts->complaint;
+  if (generated.parts->stack > kMaxStack) {
+    generated.error = "a function's values take " + std::to_string(generated.parts->stack) + " bytes of stack";
+    generated.exceeded_limit = kMaxStack;
+  }
+  return generated.error.empty() ? std::string(bytes) : std::string();
 }
 
 } // namespace
@@ -141,12 +164,13 @@ Generated generate(const ir::Module& module, const Options& options) {
   }
   generated.info.precision = options.precision;
   generated.info.width = options.width != 0 ? options.width : best_width(parts.target, options.precision);
+  parts.context.setDiagnosticHandlerCallBack(listen, &parts);
   parts.module = std::make_unique<llvm::Module>("shader", parts.context);
   parts.module->setTargetTriple(parts.target.machine->getTargetTriple().str());
   parts.module->setDataLayout(parts.target.machine->createDataLayout());
   if (const uint64_t size = operations(module); size > kMaxOperations) {
-    generated.error =
-        "the shader is too large: " + std::to_string(size) + " operations, at most " + std::to_string(kMaxOperations);
+    generated.error = "the shader comes to " + std::to_string(size) + " operations";
+    generated.exceeded_limit = kMaxOperations;
     return generated;
   }
   emit_module(generated, module, options);

@@ -55,7 +55,9 @@ public:
   Generated(Generated&&) noexcept;
   Generated& operator=(Generated&&) noexcept;
 
-  std::string error; ///< set where nothing was generated: unknown CPU, no such library function, ...
+  std::string error; ///< set where nothing was generated: unknown CPU, shader too large, ...
+  /// The error is that the shader is too large: `error` says in what, and this is the limit.
+  uint64_t exceeded_limit = 0;
   CodeInfo info;
   Times times;
 

@@ -39,6 +39,7 @@ void FunctionAttributes::apply(llvm::Function& function) const {
   if (!features.empty()) function.addFnAttr("target-features", features);
   if (wide) function.addFnAttr("prefer-vector-width", "512");
   function.addFnAttr("no-builtins");
+  function.addFnAttr("warn-stack-size", std::to_string(max_stack));
 }
 
 // --------------------------------------------------------------------------------------------------------- Modules

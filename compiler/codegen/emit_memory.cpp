@@ -18,7 +18,6 @@ Slot FunctionEmitter::make_slot(ValueType type, uint32_t count, bool varying, co
   llvm::Type* memory = count == 1 ? element : llvm::ArrayType::get(element, count);
   for (unsigned c = 0; c < component_count(type); ++c)
     slot.parts.push_back(masks.allocate(memory, name));
-  owner_.stack_bytes += owner_.llvm_module.getDataLayout().getTypeAllocSize(memory) * component_count(type);
   return slot;
 }
 

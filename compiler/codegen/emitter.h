@@ -47,7 +47,8 @@ struct FaultPlaces {
 /// Attributes that every function of the module gets.
 struct FunctionAttributes {
   std::string cpu, features;
-  bool wide = false; ///< keep 512-bit registers
+  bool wide = false;      ///< keep 512-bit registers
+  uint64_t max_stack = 0; ///< bytes of stack beyond which LLVM is to complain
   void apply(llvm::Function& function) const;
 };
 
@@ -93,7 +94,6 @@ public:
   bool has_faults = false;
   /// While the init function is emitted, globals are not constant.
   bool constants_are_final = true;
-  uint64_t stack_bytes = 0;
 
 private:
   using Key = std::pair<ir::FunctionId, ir::Signature>;
