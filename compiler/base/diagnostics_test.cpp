@@ -102,6 +102,21 @@ TEST_F(DiagnosticsTest, LongLinesAreCutAroundTheSpan) {
   EXPECT_EQ(here - shown.rfind('\n', here), caret - shown.rfind('\n', caret));
 }
 
+TEST_F(DiagnosticsTest, SpansBehindManyEscapesAreStillShown) {
+  // 50 bytes that take 200 columns; spans that are empty, within the line and at its end
+  const std::string line = "a" + std::string(50, '\xff') + "HERE" + std::string(50, '\xff');
+  const Span span = place(line, 51, 55);
+  diagnostics.report(kSomeError, span);
+  diagnostics.report(kSomeError, {span.file, 51, 51});
+  diagnostics.report(kSomeError, {span.file, 105, 105});
+  const std::string shown = text();
+  for (const char* underline : {"^~~~\n", "^\n"})
+    EXPECT_THAT(shown, HasSubstr(underline));
+  const size_t here = shown.find("HERE"), caret = shown.find("^~~~\n");
+  ASSERT_NE(caret, std::string::npos);
+  EXPECT_EQ(here - shown.rfind('\n', here), caret - shown.rfind('\n', caret));
+}
+
 TEST_F(DiagnosticsTest, SpansWithoutAPlacePrintTheMessageAlone) {
   diagnostics.report(kSomeError, Span{}, {"foo"});
   EXPECT_TRUE(text().starts_with("error: unknown attribute 'foo'"));

@@ -35,12 +35,23 @@ PrintableCharacter shown_character(std::string_view text) {
   return printable_character(text);
 }
 
-/// The beginning of the excerpt of a line: at most kColumnsBefore bytes before `begin`, at a character's border.
+/// The beginning of the excerpt of a line: at a character's border, so many bytes before `begin` that they take at most
+/// kColumnsBefore columns (one byte takes up to four).
 size_t excerpt_begin(std::string_view line, size_t begin) {
-  if (begin <= kColumnsBefore) return 0;
-  size_t at = begin - kColumnsBefore;
-  while (at < begin && (static_cast<unsigned char>(line[at]) & 0xC0) == 0x80)
+  size_t at = begin > kColumnsBefore ? begin - kColumnsBefore : 0;
+  while (at > 0 && at < begin && (static_cast<unsigned char>(line[at]) & 0xC0) == 0x80)
     ++at;
+  size_t columns = 0;
+  for (size_t i = at; i < begin;) {
+    const PrintableCharacter character = shown_character(line.substr(i));
+    columns += character.columns;
+    i += character.bytes;
+  }
+  while (columns > kColumnsBefore) {
+    const PrintableCharacter character = shown_character(line.substr(at));
+    columns -= character.columns;
+    at += character.bytes;
+  }
   return at;
 }
 
