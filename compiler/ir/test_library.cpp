@@ -1,5 +1,6 @@
 // For tests: the rows of the library's table, called natively over double.
 #include "compiler/ir/test_interpreter.h"
+#include "stdlib/derivative.h"
 #include "stdlib/signature.h"
 
 #include <cstdlib>
@@ -62,6 +63,21 @@ template <class Row, class R, class... A> struct Native<Row, R(A...)> {
   }
 };
 
+/// The result of a derivative, and its columns.
+template <class Row, unsigned Active, class Type> struct NativeDerivative;
+template <class Row, unsigned Active, class R, class... A> struct NativeDerivative<Row, Active, R(A...)> {
+  static std::vector<Value> call(const std::vector<Value>& operands) {
+    using Of = Derivative<Row, Active, double>;
+    return [&]<size_t... I>(std::index_sequence<I...>) {
+      const auto result = Of::of(Passing<A>::get(operands[I])...);
+      std::vector<Value> out{Passing<R>::put(Of::value(result))};
+      for (int k = 0; k < Of::columns; ++k)
+        out.push_back(Passing<R>::put(Of::column(result, k)));
+      return out;
+    }(std::index_sequence_for<A...>());
+  }
+};
+
 using NativeFunction = std::vector<Value> (*)(const std::vector<Value>&);
 
 const std::unordered_map<std::string_view, NativeFunction>& natives() {
@@ -70,6 +86,9 @@ const std::unordered_map<std::string_view, NativeFunction>& natives() {
   {#symbol, &Native<Row_##symbol::Of<double>, Row_##symbol::Of<double>::Type>::call},
 #define DEFAULTS(...)
 #include "stdlib/table.def"
+#define DERIVATIVE(symbol, suffix, parameters, pointers)                                                               \
+  {#symbol "__" #suffix, &NativeDerivative<Row_##symbol, parameters, Row_##symbol::Of<double>::Type>::call},
+#include "stdlib/derivatives.def"
   };
   return kNatives;
 }
