@@ -3,6 +3,7 @@
 
 #include "renderer/scene/nearest_name.h"
 
+#include <algorithm>
 #include <chrono>
 
 namespace moonshade::renderer {
@@ -12,13 +13,14 @@ static double seconds_since(std::chrono::steady_clock::time_point start) {
 }
 
 static std::string unknown_material(const Scene& scene, const Overrides& overrides) {
-  std::vector<std::string_view> names;
-  for (const Material& m : scene.materials)
-    names.push_back(m.name);
-  for (const auto& [name, parameters] : overrides)
-    if (std::find(names.begin(), names.end(), name) == names.end())
-      return "-D " + name + ".…: the scene has no material '" + name + "'" + did_you_mean(name, names) +
-             " (it has: " + join_names(names) + ")";
+  std::vector<std::string_view> names(scene.materials.size());
+  std::transform(scene.materials.begin(), scene.materials.end(), names.begin(),
+                 [](const Material& m) { return m.name.c_str(); });
+  for (const auto& [name, parameters] : overrides) {
+    if (std::find(names.begin(), names.end(), name) != names.end()) continue;
+    std::string message = "-D: the scene has no material '" + name + "'";
+    return message.append(did_you_mean(name, names)).append(" (it has: ").append(join_names(names)).append(")");
+  }
   return "";
 }
 

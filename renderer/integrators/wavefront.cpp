@@ -109,7 +109,7 @@ void Wavefront::shade_run(uint32_t index, size_t begin, size_t end) {
   }
   stats_.shading_points += end - begin;
   double shaders_start = thread_seconds();
-  if (material.height) scene_.materials.bend(material, batch_, begin, end - begin, targets_.data() + begin, faults_);
+  scene_.materials.bend(material, batch_, begin, end - begin, targets_.data() + begin, faults_);
   for (size_t k = begin; k < end; ++k)
     fill_normal(k);
   scene_.materials.shade(material, batch_, begin, end - begin, faults_);

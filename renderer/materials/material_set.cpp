@@ -129,6 +129,19 @@ void note_faults(const EntryCall& call, const uint8_t* codes, size_t count, cons
     faults[{call.file(), entry, kNotFinite, line_of_function(call.file(), entry), ""}] += not_finite;
 }
 
+/// One slot of a run of points by its shader.
+void run_slot(const EntryCall& call, ShadingBatch& batch, size_t begin, size_t count, const EntryCall::Inputs& inputs,
+              float* const* out, FaultLog& faults) {
+  uint8_t* codes = batch.scratch_codes.data();
+  std::fill_n(codes, count, uint8_t(0));
+  FaultReport report;
+  call.run(batch, begin, count, inputs, out, codes, report);
+  if (std::all_of(codes, codes + count, [](uint8_t code) { return code == 0; })) return;
+  for (size_t k = 0; k < count; ++k)
+    batch.faulted[begin + k] |= codes[k] != 0;
+  note_faults(call, codes, count, report, faults);
+}
+
 void keep_in_range(Slot slot, float* values, size_t count) {
   float low = slot == Slot::Ior ? 1.0f : 0.0f;
   float high = slot == Slot::Emission ? std::numeric_limits<float>::max() : slot == Slot::Ior ? 100.0f : 1.0f;
@@ -175,22 +188,11 @@ void MaterialSet::shade(const CompiledMaterial& material, ShadingBatch& batch, s
     float* out[3];
     for (unsigned c = 0; c < components; ++c)
       out[c] = batch.results[kResultOffset[s] + c].data() + begin;
-    if (!material.calls[s]) {
+    if (const std::optional<EntryCall>& call = material.calls[s]) {
+      run_slot(*call, batch, begin, count, inputs, out, faults);
+    } else {
       for (unsigned c = 0; c < components; ++c)
         std::fill_n(out[c], count, material.constants[s][int(c)]);
-    } else {
-      uint8_t* codes = batch.scratch_codes.data();
-      std::fill_n(codes, count, uint8_t(0));
-      FaultReport report;
-      material.calls[s]->run(batch, begin, count, inputs, out, codes, report);
-      bool any = false;
-      for (size_t k = 0; k < count; ++k)
-        any |= codes[k] != 0;
-      if (any) {
-        for (size_t k = 0; k < count; ++k)
-          batch.faulted[begin + k] |= codes[k] != 0;
-        note_faults(*material.calls[s], codes, count, report, faults);
-      }
     }
     for (unsigned c = 0; c < components; ++c)
       keep_in_range(Slot(s), out[c], count);
@@ -219,6 +221,7 @@ Vec3 bent_normal(const PlacedObject& placed, const Vec3& normal, const Vec3& g, 
 
 void MaterialSet::bend(const CompiledMaterial& material, ShadingBatch& batch, size_t begin, size_t count,
                        const BumpTarget* targets, FaultLog& faults) const {
+  if (!material.height) return;
   const EntryCall& height = *material.height;
   EntryCall::Inputs inputs = EntryCall::inputs_of(batch, begin);
   EntryCall::Inputs displaced = inputs;

@@ -70,7 +70,8 @@ std::string EntryCall::bind(std::shared_ptr<const Shader> shader, const std::str
         bound.needs_ |= 1u << (channel + c);
       }
     } else {
-      return file + ": '" + entry + "' has the input '" + input.name + "', which surfaces do not have";
+      std::string what = file + ": '" + entry;
+      return what.append("' has the input '").append(input.name).append("', which surfaces do not have");
     }
   }
   if (bound.inputs_.size() > kMaxInputs) return file + ": '" + entry + "' has too many inputs";

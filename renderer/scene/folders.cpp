@@ -55,9 +55,10 @@ FileText read_file(const std::string& path, uint64_t limit) {
   uint64_t size = fs::file_size(path, error);
   if (!error && size <= limit) text.reserve(size);
   char block[1 << 16];
-  while (size_t count = std::fread(block, 1, sizeof block, file)) {
+  size_t count = sizeof block;
+  while (count == sizeof block && text.size() <= limit) {
+    count = std::fread(block, 1, sizeof block, file);
     text.append(block, count);
-    if (text.size() > limit) break;
   }
   bool failed = std::ferror(file) != 0;
   std::fclose(file);

@@ -75,7 +75,7 @@ void clip_ears(const std::vector<Flat>& flat, Triangles& triangles) {
     at %= n;
     if (is_ear(flat, left, at)) {
       triangles.push_back({left[(at + n - 1) % n], left[at], left[(at + 1) % n]});
-      left.erase(left.begin() + at);
+      left.erase(left.begin() + std::ptrdiff_t(at));
       misses = 0;
     } else {
       ++at, ++misses;
@@ -187,7 +187,7 @@ void compute_missing_normals(Mesh& mesh, const Smoothing& smoothing) {
         for (uint32_t k = around.start[position]; k < around.start[position + 1]; ++k)
           if (joined(triangle, around.corners[k] / 3)) sum += faces[around.corners[k] / 3] * angles[around.corners[k]];
       Vec3 normal = normalize_or(sum, faces[triangle]);
-      auto same = std::find(mesh.normals.begin() + first_here, mesh.normals.end(), normal);
+      auto same = std::find(mesh.normals.begin() + std::ptrdiff_t(first_here), mesh.normals.end(), normal);
       slot = uint32_t(same - mesh.normals.begin());
       if (same == mesh.normals.end()) mesh.normals.push_back(normal);
     }
