@@ -5,6 +5,7 @@
 #include "compiler/ir/print.h"
 #include "compiler/syntax/ast.h"
 #include "runtime/frontend_parts.h"
+#include "runtime/gradients.h"
 #include "runtime/stopwatch.h"
 
 #include <algorithm>
@@ -34,9 +35,11 @@ const SourceSet& CheckedShader::sources() const { return parts_->sources; }
 
 ir::Module build_module(const CheckedShader& shader, const CompileOptions& options) {
   ir::Module module = ir::build(shader.parts().program, {options.step_limit});
+  add_gradients(module, shader.info(), options);
   if (!options.entries.empty())
     std::erase_if(module.entries, [&](const ir::Entry& entry) {
-      return std::ranges::find(options.entries, entry.name) == options.entries.end();
+      return shader.info().find_entry(entry.name) != nullptr &&
+             std::ranges::find(options.entries, entry.name) == options.entries.end();
     });
   // At every level: which products and sums become one operation is part of what f32 means.
   ir::optimize(module, options.precision);

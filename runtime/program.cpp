@@ -3,6 +3,7 @@
 #include "compiler/codegen/codegen.h"
 #include "runtime/floating_point.h"
 #include "runtime/frontend_parts.h"
+#include "runtime/gradients.h"
 #include "runtime/jit.h"
 #include "runtime/shader.h"
 #include "runtime/stopwatch.h"
@@ -177,11 +178,11 @@ FaultSite resolve(const SourceSet& sources, const codegen::FaultPlaceInfo& place
 }
 
 /// The shader's facts, with the entries of the module, in its order.
-ShaderInfo compiled_info(const ShaderInfo& info, const ir::Module& module) {
+ShaderInfo compiled_info(const ShaderInfo& info, const ir::Module& module, const CompileOptions& options) {
   ShaderInfo compiled = info;
   compiled.entries.clear();
   for (const ir::Entry& entry : module.entries)
-    compiled.entries.push_back(*info.find_entry(entry.name));
+    compiled.entries.push_back(entry_info(entry.name, info, options));
   return compiled;
 }
 
@@ -221,7 +222,7 @@ Compilation compile(const CheckedShader& shader, const CompileOptions& options) 
   if (generated.error.empty()) object = generated.object();
   if (!generated.error.empty()) return {nullptr, diagnostics + refusal(shader, generated, options.color_diagnostics)};
   compiled->generated = std::move(generated.info);
-  compiled->info = compiled_info(shader.info(), module);
+  compiled->info = compiled_info(shader.info(), module, options);
   for (size_t i = 0; i < module.globals.size(); ++i)
     if (const ir::Global& global = module.globals[i]; global.parameter != ir::kNone)
       compiled->slots.push_back({global.parameter, global.type, compiled->generated.global_offsets[i]});

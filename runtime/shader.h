@@ -24,6 +24,17 @@
 
 namespace moonshade {
 
+/// A request for derivatives: of what the entry gives, by inputs (numbers and vectors, at most 16 components together).
+struct Gradient {
+  std::string entry;
+  std::vector<std::string> inputs;
+};
+/// The name of the entry that it makes: "height'p,uv". That entry has the inputs of `height` and gives its results and
+/// then, for each number and each component of a vector among them, the gradient by each of the inputs that the entry
+/// declares, in the order of the request, of the input's type. Derivatives are exact; at a kink those of the branch
+/// taken; hashes, floors and the lattice of noise count as constant.
+std::string gradient_name(const Gradient& gradient);
+
 /// How to compile. The defaults suit rendering on this machine.
 struct CompileOptions {
   Precision precision = Precision::F32;
@@ -43,6 +54,8 @@ struct CompileOptions {
   uint64_t step_limit = 1'000'000;
   /// At most this many diagnostics are kept, and colour is used in their text.
   bool color_diagnostics = false;
+  /// Entries to add; those of functions that the shader does not have are left out. (Compiled code only.)
+  std::vector<Gradient> gradients;
 };
 
 /// Faults of one call of Shader::run. Plain data; the caller sets it to zero (or {}) before the call.
