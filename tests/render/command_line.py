@@ -69,13 +69,13 @@ with tempfile.TemporaryDirectory() as folder:
     check(os.listdir(folder) == [], f"files are left: {os.listdir(folder)}")
 
     # Scenes at fault.
-    run(os.path.join(scenes, "none.lua"), "-o", image, status=1, error="none.lua: No such file")
+    run(os.path.join(scenes, "none.lua"), "-o", image, status=1, error="none.lua: error: No such file")
     run(os.path.join(scenes, "broken.scene.lua"), "-o", image, status=1, error="broken.lua:2:")
     run(bumpy, "-o", image, "-D", "bumpy.scale=100", status=1, error="scale")
     wrong = os.path.join(folder, "wrong.lua")
     with open(wrong, "w") as file:
         file.write("sphere{}\nlight{ type = 'sun', colour = 1 }\n")
-    run(wrong, "-o", image, status=1, error="wrong.lua:2: light: unknown field 'colour'; did you mean 'color'?")
+    run(wrong, "-o", image, status=1, error="wrong.lua:2: error: light: unknown field 'colour'; did you mean 'color'?")
     os.remove(wrong)
     check(os.listdir(folder) == [], f"files are left: {os.listdir(folder)}")
 

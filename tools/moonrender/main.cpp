@@ -55,6 +55,14 @@ int fail(int code, const std::string& message) {
   return code;
 }
 
+/// "FILE:LINE: message" as "FILE:LINE: error: message"; what the compiler has worded stays.
+std::string of_kind(const std::string& kind, const std::string& message) {
+  size_t colon = message.find(": ");
+  if (colon == std::string::npos || message.find(": error: ") != std::string::npos) return message;
+  std::string text = message.substr(0, colon);
+  return text.append(": ").append(kind).append(message.substr(colon));
+}
+
 void list_faults(const renderer::RenderResult& result) {
   if (result.faults.empty()) return;
   std::cerr << "moonrender: " << result.fault_count
@@ -76,8 +84,8 @@ int run(const Options& options) {
   Timer timer;
   renderer::SceneReading reading = renderer::read_scene(options.scene);
   for (const std::string& warning : reading.warnings)
-    std::cerr << warning.substr(0, warning.find(": ")) << ": warning" << warning.substr(warning.find(": ")) << "\n";
-  if (!reading.scene) return fail(kInputAtFault, reading.error);
+    std::cerr << of_kind("warning", warning) << "\n";
+  if (!reading.scene) return fail(kInputAtFault, of_kind("error", reading.error));
   if (std::string error = apply(options, reading.scene->settings); !error.empty())
     return fail(kCallAtFault, "moonrender: error: " + error);
   renderer::ImageFile image;
@@ -92,7 +100,7 @@ int run(const Options& options) {
   renderer::Preparation preparation = renderer::prepare(std::move(*reading.scene), *shaders, options.overrides);
   std::cerr << preparation.warnings;
   if (!preparation.prepared)
-    return fail(preparation.machine_at_fault ? kMachineAtFault : kInputAtFault, preparation.error);
+    return fail(preparation.machine_at_fault ? kMachineAtFault : kInputAtFault, of_kind("error", preparation.error));
   const renderer::PreparedScene& prepared = *preparation.prepared;
   const renderer::Settings& settings = prepared.scene.settings;
 
