@@ -67,6 +67,7 @@ std::vector<EntryPlan> plan_entries(Context& context, const std::vector<std::str
     plans.push_back({global, input_types(context, function, true), is_in_table, is_selected});
   }
   std::vector<std::string_view> names;
+  names.reserve(context.globals.functions.size());
   for (const Global* global : context.globals.functions)
     names.push_back(global->name);
   for (const std::string& name : asked)

@@ -80,7 +80,7 @@ private:
     } else if (!info_.type || *info_.type == ValueType::Boolean) {
       refuse(key.span, "'" + std::string(key.value) + "' fits only a parameter of numbers");
     } else {
-      (key.value == "min" ? info_.min : key.value == "max" ? info_.max : info_.step) = *number;
+      (key.value == "min" ? info_.min : key.value == "max" ? info_.max : info_.step) = number;
     }
   }
 
@@ -133,7 +133,7 @@ std::string_view Walker::constant_name(const Expr& expr) {
 }
 
 TypeList Walker::parameter(const CallExpr& expr) {
-  const auto unknown = TypeList{{}, true};
+  TypeList unknown{{}, true};
   if (!at_top_level() || loop_depth_ != 0) {
     error(Code::ParameterPlace, expr.span);
     return unknown;

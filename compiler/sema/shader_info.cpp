@@ -68,7 +68,8 @@ std::optional<Constant> convert(const ParameterInfo& parameter, const Constant& 
 std::string range_text(const ParameterInfo& parameter) {
   if (parameter.min && parameter.max)
     return "outside " + number_text(*parameter.min) + ".." + number_text(*parameter.max);
-  return parameter.min ? "less than " + number_text(*parameter.min) : "greater than " + number_text(*parameter.max);
+  if (parameter.min) return "less than " + number_text(*parameter.min);
+  return "greater than " + number_text(parameter.max.value_or(0));
 }
 
 /// The first component outside the parameter's range; NaN is outside any.
