@@ -17,9 +17,10 @@ using namespace tools;
 
 constexpr const char* kNotes =
     R"(Columns: million points a second, ratio to stock Lua, milliseconds to compile, largest difference from stock Lua.
-Each row is the best of several interleaved repetitions. Modes: lua (stock Lua 5.4, every argument over its stack),
-scalar (compiled, one lane), simd (compiled, all lanes). There are no luajit rows yet: the standard library is bound for
-Lua 5.4 only, and without it a shader does not run in LuaJIT.
+Each row is the best of several interleaved repetitions; on one thread its processor time counts, on several the clock.
+Modes: lua (stock Lua 5.4, every argument over its stack), scalar (compiled, one lane), simd (compiled, all lanes).
+There are no luajit rows yet: the standard library is bound for Lua 5.4 only, and without it a shader does not run in
+LuaJIT.
 Exit status 1: under f32 more than 0.1 % of the points differ from stock Lua by more than 1e-3 * max(1, |x|), or under
 f64 any bit differs.
 
