@@ -24,6 +24,13 @@ constexpr double kShortest = 0.02;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
+/// Seconds that this thread has computed: what other programs take from it does not count.
+double thread_seconds() {
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return double(time.tv_sec) + double(time.tv_nsec) * 1e-9;
+}
+
 /// One mode of one entry.
 struct Contestant {
   Row row;
@@ -56,13 +63,6 @@ FaultReport shade(Contestant& contestant, unsigned threads) {
   return total;
 }
 
-/// Seconds that this thread has computed: what other programs take from it does not count.
-double thread_seconds() {
-  timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return double(time.tv_sec) + double(time.tv_nsec) * 1e-9;
-}
-
 double time_once(Contestant& contestant, unsigned threads) {
   const auto start = Clock::now();
   const double thread_start = thread_seconds();
@@ -76,10 +76,10 @@ double time_once(Contestant& contestant, unsigned threads) {
 
 Contestant interpreted(const CheckedShader& shader, const InterpretOptions& options, std::string& error) {
   Contestant contestant;
-  const auto start = Clock::now();
+  const double start = thread_seconds();
   Instantiation instance = interpret(shader, {}, options);
   contestant.row.mode = "lua";
-  contestant.row.compile_ms = seconds_since(start) * 1e3;
+  contestant.row.compile_ms = (thread_seconds() - start) * 1e3;
   contestant.shader = instance.shader;
   error = instance.error;
   return contestant;
@@ -92,10 +92,10 @@ Contestant compiled(const CheckedShader& shader, const std::string& entry, const
   compile_options.precision = options.precision;
   compile_options.width = width;
   compile_options.entries = {entry};
-  const auto start = Clock::now();
+  const double start = thread_seconds();
   const Compilation compilation = compile(shader, compile_options);
   contestant.row.mode = width == 1 ? "scalar" : "simd";
-  contestant.row.compile_ms = seconds_since(start) * 1e3;
+  contestant.row.compile_ms = (thread_seconds() - start) * 1e3;
   if (!compilation.program) {
     error = compilation.diagnostics;
     return contestant;
