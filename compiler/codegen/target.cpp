@@ -15,15 +15,10 @@ namespace moonshade::codegen {
 
 namespace {
 
-void initialise_llvm(bool all_targets) {
-  static std::once_flag native, all;
-  std::call_once(native, [] {
-    llvm::InitializeNativeTarget();
-    llvm::InitializeNativeTargetAsmPrinter();
-    llvm::InitializeNativeTargetAsmParser();
-  });
-  if (!all_targets) return;
-  std::call_once(all, [] {
+/// All targets at once: a later registration would disturb other threads' look-ups. It costs nothing to speak of.
+void initialise_llvm() {
+  static std::once_flag once;
+  std::call_once(once, [] {
     llvm::InitializeAllTargetInfos();
     llvm::InitializeAllTargets();
     llvm::InitializeAllTargetMCs();
@@ -77,7 +72,7 @@ unsigned widest_vector(const llvm::TargetMachine& machine) {
 
 Target make_target(const TargetOptions& options) {
   Target target;
-  initialise_llvm(!options.triple.empty());
+  initialise_llvm();
   const std::string host = llvm::sys::getProcessTriple();
   const std::string name = options.triple.empty() ? host : llvm::Triple::normalize(options.triple);
   const llvm::Triple triple(name);
