@@ -157,7 +157,7 @@ void Wavefront::fill_normal(size_t k) {
   SurfacePoint& s = points_[k];
   float side = batch_.backface[k] ? -1.0f : 1.0f;
   s.geometric_normal *= side;
-  s.shading_normal = turned_to_viewer(s.shading_normal * side, -paths_[path_of_[k]].ray.direction);
+  s.shading_normal = turned_to_viewer(s.shading_normal * side, s.geometric_normal, -paths_[path_of_[k]].ray.direction);
   store(batch_, kNormal, k, s.shading_normal);
 }
 

@@ -14,10 +14,10 @@ float square(float x) { return x * x; }
 
 } // namespace
 
-Vec3 turned_to_viewer(const Vec3& normal, const Vec3& out) {
-  constexpr float kLeast = 0.02f;
+Vec3 turned_to_viewer(const Vec3& normal, const Vec3& geometric_normal, const Vec3& out) {
   float cosine = glm::dot(normal, out);
-  return cosine >= kLeast ? normal : normalize_or(normal + out * (kLeast - cosine), out);
+  float least = std::min(0.02f, glm::dot(geometric_normal, out));
+  return cosine >= least ? normal : normalize_or(normal + out * (least - cosine), out);
 }
 
 /// Schlick's approximation; what reflects almost nothing from the front (f0 below 2 %) reflects less at grazing too, so
@@ -25,8 +25,8 @@ Vec3 turned_to_viewer(const Vec3& normal, const Vec3& out) {
 float Bsdf::fresnel(float cosine, float f0) { return f0 + (std::min(1.0f, 50 * f0) - f0) * schlick_power(cosine); }
 
 Bsdf::Bsdf(const SurfaceValues& values, const Vec3& shading_normal, const Vec3& geometric_normal, const Vec3& out)
-    : frame_(turned_to_viewer(shading_normal, out)), ng_(geometric_normal), out_(out), local_out_(frame_.to_local(out)),
-      reflectance_(values.reflectance) {
+    : frame_(turned_to_viewer(shading_normal, geometric_normal, out)), ng_(geometric_normal), out_(out),
+      local_out_(frame_.to_local(out)), reflectance_(values.reflectance) {
   n_dot_v_ = std::max(local_out_.z, 1e-4f);
   f0_dielectric_ = square((values.ior - 1) / (values.ior + 1));
   f0_ = glm::mix(Vec3(f0_dielectric_), values.color, values.metallic);

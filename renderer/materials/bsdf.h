@@ -15,8 +15,9 @@
 
 namespace moonshade::renderer {
 
-/// `normal`, turned just enough for the viewer in direction `out` to see its front.
-Vec3 turned_to_viewer(const Vec3& normal, const Vec3& out);
+/// The shading normal, turned just enough for the viewer in direction `out` to see its front; one that equals the
+/// geometric normal stays.
+Vec3 turned_to_viewer(const Vec3& normal, const Vec3& geometric_normal, const Vec3& out);
 
 /// Values of one point's slots, in range.
 struct SurfaceValues {

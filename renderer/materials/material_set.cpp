@@ -56,10 +56,34 @@ std::string MaterialLoader::slot(CompiledMaterial& compiled, Slot slot, const st
                        : error;
 }
 
+/// The gradient of a height, where the shader has it: only compiled ones do.
+std::string bind_gradient(CompiledMaterial& compiled, const std::shared_ptr<const Shader>& shader,
+                          const std::string& file) {
+  const std::vector<EntryInfo>& entries = shader->info().entries;
+  auto found = std::find_if(entries.begin(), entries.end(),
+                            [name = gradient_name(height_gradient())](const EntryInfo& e) { return e.name == name; });
+  if (found == entries.end()) return "";
+  std::optional<EntryCall> call;
+  if (std::string error = EntryCall::bind_all(shader, file, size_t(found - entries.begin()), call); !error.empty())
+    return error;
+  HeightGradient gradient{std::move(*call)};
+  unsigned at = 1;
+  for (const std::string& name : height_gradient().inputs) {
+    auto input = std::find_if(found->inputs.begin(), found->inputs.end(),
+                              [&](const InputInfo& candidate) { return candidate.name == name; });
+    if (input == found->inputs.end()) continue;
+    (name == "p" ? gradient.by_local : name == "P" ? gradient.by_world : gradient.by_uv) = at;
+    at += component_count(input->type);
+  }
+  compiled.gradient = std::move(gradient);
+  return "";
+}
+
 std::string MaterialLoader::height(CompiledMaterial& compiled, const std::string& file, std::string& warnings) {
   std::shared_ptr<const Shader> shader;
   std::string error = shader_of(file, shader, warnings);
-  return error.empty() ? EntryCall::bind(shader, file, "height", 1, compiled.height) : error;
+  if (error.empty()) error = EntryCall::bind(shader, file, "height", 1, compiled.height);
+  return error.empty() && compiled.bump == BumpMode::Gradient ? bind_gradient(compiled, shader, file) : error;
 }
 
 /// Every entry that the material's own file has and the material does not set.
@@ -110,9 +134,13 @@ uint32_t line_of_function(const std::string& file, const std::string& name) {
   return at == std::string::npos ? 0 : 1 + uint32_t(std::count(text.text.begin(), text.text.begin() + long(at), '\n'));
 }
 
+} // namespace
+
 void note_faults(const EntryCall& call, const uint8_t* codes, size_t count, const FaultReport& report,
                  FaultLog& faults) {
-  const std::string& entry = call.shader().info().entries[call.entry()].name;
+  // A gradient is its function's.
+  std::string entry = call.shader().info().entries[call.entry()].name;
+  entry.resize(std::min(entry.size(), entry.find('\'')));
   if (report.count) {
     FaultSite site = call.shader().fault_site(report.first_site);
     std::string file = site.file.empty() ? call.file() : site.file;
@@ -128,6 +156,8 @@ void note_faults(const EntryCall& call, const uint8_t* codes, size_t count, cons
   else
     faults[{call.file(), entry, kNotFinite, line_of_function(call.file(), entry), ""}] += not_finite;
 }
+
+namespace {
 
 /// One slot of a run of points by its shader.
 void run_slot(const EntryCall& call, ShadingBatch& batch, size_t begin, size_t count, const EntryCall::Inputs& inputs,
@@ -196,73 +226,6 @@ void MaterialSet::shade(const CompiledMaterial& material, ShadingBatch& batch, s
     }
     for (unsigned c = 0; c < components; ++c)
       keep_in_range(Slot(s), out[c], count);
-  }
-}
-
-namespace {
-
-/// ∇h by p at one point, from the heights at p ± ε.
-Vec3 central_difference(const ShadingBatch& batch, size_t k, float epsilon) {
-  Vec3 g;
-  for (int axis = 0; axis < 3; ++axis)
-    g[axis] = (batch.heights[2 * axis][k] - batch.heights[2 * axis + 1][k]) / (2 * epsilon);
-  return g;
-}
-
-/// The outward unit normal, bent by the surface gradient in object space (Mikkelsen 2010), or the paper's way: minus
-/// the unit vector of u, u being twice the gradient.
-Vec3 bent_normal(const PlacedObject& placed, const Vec3& normal, const Vec3& g, BumpMode mode) {
-  Vec3 local = normalize_or(glm::transpose(placed.linear) * normal, normal);
-  Vec3 bent = mode == BumpMode::Paper ? local - normalize_or(g, Vec3(0)) : local - (g - local * glm::dot(g, local));
-  return normalize_or(placed.normal_matrix * normalize_or(bent, local), normal);
-}
-
-} // namespace
-
-void MaterialSet::bend(const CompiledMaterial& material, ShadingBatch& batch, size_t begin, size_t count,
-                       const BumpTarget* targets, FaultLog& faults) const {
-  if (!material.height) return;
-  const EntryCall& height = *material.height;
-  EntryCall::Inputs inputs = EntryCall::inputs_of(batch, begin);
-  EntryCall::Inputs displaced = inputs;
-  for (int c = 0; c < 3; ++c) {
-    displaced[kLocal + c] = batch.scratch_inputs[c].data();
-    displaced[kWorld + c] = batch.scratch_inputs[3 + c].data();
-  }
-  auto epsilon = [&](size_t k) { return std::max(1e-4f * targets[k].placed->extent, 0.5f * targets[k].footprint); };
-  uint8_t* codes = batch.scratch_codes.data();
-  std::fill_n(codes, count, uint8_t(0));
-  for (int sample = 0; sample < 6; ++sample) {
-    int axis = sample / 2;
-    float sign = sample % 2 ? -1.0f : 1.0f;
-    for (size_t k = 0; k < count; ++k) {
-      Vec3 step(0);
-      step[axis] = sign * epsilon(k);
-      Vec3 world_step = targets[k].placed->linear * step;
-      for (int c = 0; c < 3; ++c) {
-        batch.scratch_inputs[c][k] = inputs[kLocal + c][k] + step[c];
-        batch.scratch_inputs[3 + c][k] = inputs[kWorld + c][k] + world_step[c];
-      }
-    }
-    float* out[1] = {batch.heights[sample].data()};
-    FaultReport sample_report;
-    // Codes of this sample stand behind those of the others, which they must not erase.
-    uint8_t* sample_codes = batch.faulted.data() + begin;
-    std::fill_n(sample_codes, count, uint8_t(0));
-    height.run(batch, begin, count, displaced, out, sample_codes, sample_report);
-    for (size_t k = 0; k < count; ++k)
-      codes[k] = codes[k] ? codes[k] : sample_codes[k];
-    if (sample_report.count)
-      note_faults(height, nullptr, 0, sample_report, faults);
-    else if (std::count(sample_codes, sample_codes + count, kNotFinite))
-      note_faults(height, sample_codes, count, {}, faults);
-  }
-  for (size_t k = 0; k < count; ++k) {
-    if (codes[k]) continue;
-    Vec3 g = central_difference(batch, k, epsilon(k));
-    if (!is_finite(g) || is_black(g)) continue;
-    SurfacePoint& point = *targets[k].point;
-    point.shading_normal = bent_normal(*targets[k].placed, point.shading_normal, g, material.bump);
   }
 }
 

@@ -28,10 +28,25 @@ struct FaultKey {
 };
 using FaultLog = std::map<FaultKey, uint64_t>;
 
+/// `height` with its derivatives by p, P and uv, of those that it has: where each begins among the results, or 0.
+struct HeightGradient {
+  EntryCall call;
+  unsigned by_local = 0, by_world = 0, by_uv = 0;
+};
+
+/// What is asked of the compiler for HeightGradient.
+Gradient height_gradient();
+
+/// Adds the faults of one call to the log: those reported, and the codes of results that are not finite.
+void note_faults(const EntryCall& call, const uint8_t* codes, size_t count, const FaultReport& report,
+                 FaultLog& faults);
+
 struct CompiledMaterial {
   std::array<Vec3, kSlotCount> constants;
   std::array<std::optional<EntryCall>, kSlotCount> calls;
   std::optional<EntryCall> height;
+  /// Where the shader gives it and `bump` asks for it.
+  std::optional<HeightGradient> gradient;
   BumpMode bump = BumpMode::Gradient;
   uint32_t needs = 0; ///< channels that any of its entries reads
   bool emits_outward_only = false;
@@ -67,6 +82,11 @@ public:
   void shade(const CompiledMaterial& material, ShadingBatch& batch, size_t begin, size_t count, FaultLog& faults) const;
 
 private:
+  void bend_by_gradient(const HeightGradient& gradient, ShadingBatch& batch, size_t begin, size_t count,
+                        const BumpTarget* targets, FaultLog& faults) const;
+  void bend_by_differences(const CompiledMaterial& material, ShadingBatch& batch, size_t begin, size_t count,
+                           const BumpTarget* targets, FaultLog& faults) const;
+
   std::vector<CompiledMaterial> materials_;
   unsigned width_ = 1;
 };

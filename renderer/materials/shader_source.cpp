@@ -1,6 +1,7 @@
 // Files to shaders through the runtime's front end.
 #include "renderer/materials/shader_source.h"
 
+#include "renderer/materials/material_set.h"
 #include "renderer/scene/folders.h"
 #include "renderer/scene/nearest_name.h"
 #include "runtime/frontend.h"
@@ -50,6 +51,7 @@ ShaderFile& RuntimeShaders::open(const std::string& file) {
   compile_options.width = options_.width;
   compile_options.uniform_inputs = {"time", "frame"};
   compile_options.color_diagnostics = options_.color_diagnostics;
+  compile_options.gradients = {height_gradient()};
   Compilation compiled = compile(*shader.checked, compile_options);
   shader.program = compiled.program;
   if (!shader.program) shader.error = compiled.diagnostics.empty() ? file + ": not compiled" : compiled.diagnostics;

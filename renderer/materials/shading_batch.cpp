@@ -27,7 +27,7 @@ ShadingBatch::ShadingBatch(size_t capacity, double time, int64_t frame_number) :
   faulted.resize(capacity);
   scratch_codes.resize(capacity);
   wide_inputs.resize(kMaxInputs * kWideBlock);
-  wide_outputs.resize(3 * kWideBlock);
+  wide_outputs.resize(EntryCall::kMaxResults * kWideBlock);
 }
 
 EntryCall::Inputs EntryCall::inputs_of(const ShadingBatch& batch, size_t begin) {
@@ -56,31 +56,52 @@ std::string EntryCall::bind(std::shared_ptr<const Shader> shader, const std::str
   bool fits = bound.shader_components_ == components || (entry == "reflectance" && bound.shader_components_ == 1);
   if (!fits || (found->results[0] != ValueType::Number && !is_vector(found->results[0])))
     return file + ": '" + entry + "' gives no " + (components == 3 ? "vec3" : "number");
-  for (const InputInfo& input : found->inputs) {
-    uint8_t channel = 0;
-    if (input.name == "id")
-      bound.inputs_.push_back({Input::Id, 0});
-    else if (input.name == "frame")
-      bound.inputs_.push_back({Input::Frame, 0});
-    else if (input.name == "backface")
-      bound.inputs_.push_back({Input::Backface, 0});
-    else if (channel_of(input.name, channel)) {
-      for (unsigned c = 0; c < component_count(input.type); ++c) {
-        bound.inputs_.push_back({Input::Float, uint8_t(channel + c)});
-        bound.needs_ |= 1u << (channel + c);
-      }
-    } else {
-      std::string what = file + ": '" + entry;
-      return what.append("' has the input '").append(input.name).append("', which surfaces do not have");
-    }
-  }
-  if (bound.inputs_.size() > kMaxInputs) return file + ": '" + entry + "' has too many inputs";
+  if (std::string error = bound.bind_inputs(*found); !error.empty()) return file + ": '" + entry + "' " + error;
   bound.entry_ = size_t(found - entries.begin());
   bound.shader_ = std::move(shader);
   bound.file_ = file;
   bound.components_ = components;
   call = std::move(bound);
   return "";
+}
+
+std::string EntryCall::bind_all(std::shared_ptr<const Shader> shader, const std::string& file, size_t entry,
+                                std::optional<EntryCall>& call) {
+  const EntryInfo& info = shader->info().entries[entry];
+  EntryCall bound;
+  bound.components_ = 0;
+  for (const ValueType type : info.results)
+    bound.components_ += component_count(type);
+  if (bound.components_ > kMaxResults) return file + ": '" + info.name + "' has too many results";
+  if (std::string error = bound.bind_inputs(info); !error.empty()) return file + ": '" + info.name + "' " + error;
+  bound.shader_components_ = bound.components_;
+  bound.entry_ = entry;
+  bound.shader_ = std::move(shader);
+  bound.file_ = file;
+  call = std::move(bound);
+  return "";
+}
+
+/// What is wrong with the inputs, or nothing.
+std::string EntryCall::bind_inputs(const EntryInfo& entry) {
+  for (const InputInfo& input : entry.inputs) {
+    uint8_t channel = 0;
+    if (input.name == "id")
+      inputs_.push_back({Input::Id, 0});
+    else if (input.name == "frame")
+      inputs_.push_back({Input::Frame, 0});
+    else if (input.name == "backface")
+      inputs_.push_back({Input::Backface, 0});
+    else if (channel_of(input.name, channel)) {
+      for (unsigned c = 0; c < component_count(input.type); ++c) {
+        inputs_.push_back({Input::Float, uint8_t(channel + c)});
+        needs_ |= 1u << (channel + c);
+      }
+    } else {
+      return "has the input '" + input.name + "', which surfaces do not have";
+    }
+  }
+  return inputs_.size() > kMaxInputs ? "has too many inputs" : "";
 }
 
 /// Marks results that are not finite; a fault's zeros stay.
@@ -128,7 +149,7 @@ void EntryCall::run(ShadingBatch& batch, size_t begin, size_t count, const Input
         converted[j] = source[j];
       in[k] = converted;
     }
-    void* results[3];
+    void* results[kMaxResults];
     for (unsigned c = 0; c < shader_components_; ++c)
       results[c] = wide ? static_cast<void*>(batch.wide_outputs.data() + c * kWideBlock) : out[c] + at;
     FaultReport block_report;

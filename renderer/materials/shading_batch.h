@@ -43,7 +43,7 @@ struct ShadingBatch {
   std::vector<uint8_t> faulted; ///< 1: an entry faulted here or gave a value that is not finite
   std::vector<uint8_t> scratch_codes;
   std::vector<float> scratch_inputs[6];          ///< displaced p and P, for bump mapping
-  std::array<std::vector<float>, 6> heights;     ///< at p ± ε along each axis
+  std::array<std::vector<float>, 9> heights;     ///< at p ± ε along each axis; or height and its derivatives
   std::vector<double> wide_inputs, wide_outputs; ///< conversion for f64: blocks of `capacity`
 };
 
@@ -53,6 +53,10 @@ public:
   /// Error where the shader's entry does not give `components` numbers.
   static std::string bind(std::shared_ptr<const Shader> shader, const std::string& file, const std::string& entry,
                           unsigned components, std::optional<EntryCall>& call);
+
+  /// The entry whatever its results are (numbers and vectors, at most kMaxResults components), all of which it gives.
+  static std::string bind_all(std::shared_ptr<const Shader> shader, const std::string& file, size_t entry,
+                              std::optional<EntryCall>& call);
 
   /// Where inputs are read: the batch's own arrays, or others in their place.
   using Inputs = std::array<const float*, kChannelCount>;
@@ -69,7 +73,11 @@ public:
   size_t entry() const { return entry_; }
   const std::string& file() const { return file_; }
 
+  static constexpr unsigned kMaxResults = 9;
+
 private:
+  std::string bind_inputs(const EntryInfo& entry);
+
   struct Input {
     enum Kind : uint8_t { Float, Id, Frame, Backface } kind;
     uint8_t channel;

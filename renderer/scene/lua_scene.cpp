@@ -147,7 +147,7 @@ void SceneBuilder::parameters(SceneFields& fields, Material& material) {
 }
 
 void SceneBuilder::material(SceneFields& fields, const SceneCall& call, size_t index) {
-  static constexpr std::string_view kBumps[] = {"gradient", "paper"};
+  static constexpr std::string_view kBumps[] = {"gradient", "differences", "paper"};
   Material m;
   m.place = place(call);
   m.name = fields.text("name", "material" + std::to_string(scene_.materials.size()));

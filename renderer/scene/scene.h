@@ -51,8 +51,8 @@ inline const std::array<SlotInfo, kSlotCount>& slot_infos() {
   return infos;
 }
 
-/// How `height` bends the normal.
-enum class BumpMode : uint8_t { Gradient, Paper };
+/// How `height` bends the normal: by its exact gradient, by differences over the footprint, by the paper's formula.
+enum class BumpMode : uint8_t { Gradient, Differences, Paper };
 
 struct Material {
   std::string name;
