@@ -8,8 +8,10 @@
 #include "compiler/codegen/target.h"
 
 #include <llvm/ADT/SmallString.h>
+#include <llvm/Analysis/LoopInfo.h>
 #include <llvm/IR/DiagnosticInfo.h>
 #include <llvm/IR/DiagnosticPrinter.h>
+#include <llvm/IR/Dominators.h>
 #include <llvm/IR/LegacyPassManager.h>
 #include <llvm/Support/raw_ostream.h>
 
@@ -35,6 +37,12 @@ namespace {
 
 /// Beyond this many instructions in one function, the allocation of registers by graph takes quadratic time.
 constexpr unsigned kLargeFunction = 15'000;
+/// Beyond these, in one function, passes over control flow take quadratic time, and those over loops inside each other
+/// exponential time. (Functions written by people stay below a hundred blocks.)
+constexpr size_t kManyBlocks = 1000;
+constexpr unsigned kDeepLoops = 12;
+/// Entry points for which optimised code would take seconds.
+constexpr size_t kManyEntries = 500;
 /// Operations of the IR, with functions emitted in place counted at each call: beyond this nothing is generated.
 constexpr uint64_t kMaxOperations = 200'000;
 
@@ -85,6 +93,17 @@ uint64_t operations(const ir::Module& module) {
 bool has_large_function(const llvm::Module& module) {
   return std::ranges::any_of(
       module, [](const llvm::Function& function) { return function.getInstructionCount() > kLargeFunction; });
+}
+
+bool has_tangled_function(llvm::Module& module) {
+  return std::ranges::any_of(module, [](llvm::Function& function) {
+    if (function.isDeclaration()) return false;
+    if (function.size() > kManyBlocks) return true;
+    const llvm::DominatorTree tree(function);
+    const llvm::LoopInfo loops(tree);
+    return std::ranges::any_of(function,
+                               [&](const llvm::BasicBlock& block) { return loops.getLoopDepth(&block) > kDeepLoops; });
+  });
 }
 
 void emit_module(Generated& generated, const ir::Module& module, const Options& options) {
@@ -176,9 +195,10 @@ Generated generate(const ir::Module& module, const Options& options) {
   emit_module(generated, module, options);
   generated.times.emit = watch.lap();
   if (!generated.error.empty()) return generated;
-  optimize(*parts.module, *parts.target.machine, options.optimization);
+  const bool too_costly = module.entries.size() > kManyEntries || has_tangled_function(*parts.module);
+  optimize(*parts.module, *parts.target.machine, too_costly ? 0 : options.optimization);
   generated.times.optimize = watch.lap();
-  if (has_large_function(*parts.module)) parts.target.machine->setOptLevel(llvm::CodeGenOptLevel::None);
+  if (too_costly || has_large_function(*parts.module)) parts.target.machine->setOptLevel(llvm::CodeGenOptLevel::None);
 #ifndef NDEBUG
   if (std::string complaint = verify(*parts.module); !complaint.empty())
     generated.error = "internal error: " + complaint;
