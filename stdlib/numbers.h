@@ -103,6 +103,12 @@ template <class L> MS_INLINE L smootherstep(L a, L b, L x) { return fade(linears
 
 template <class L> MS_INLINE L pulse(L a, L b, L x) { return step(a, x) - step(b, x); }
 
+/// A step through a box filter; the sign of the width does not count, width 0 is the step itself.
+template <class L> MS_INLINE L aastep(L edge, L x, L width) {
+  L half = abs(width) * constant<L>(0.5);
+  return linearstep(edge - half, edge + half, x);
+}
+
 /// Schlick's forms of Perlin's bias and gain (Graphics Gems IV, 1994).
 template <class L> MS_INLINE L bias(L x, L b) {
   L one = constant<L>(1);

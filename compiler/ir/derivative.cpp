@@ -6,6 +6,7 @@
 #include "compiler/ir/derivative_activity.h"
 
 #include <algorithm>
+#include <cassert>
 #include <string>
 #include <unordered_map>
 
@@ -37,6 +38,7 @@ public:
 private:
   void declare_signature();
   void declare_variables();
+  void clear_captures();
   void walk(const Block& block);
   void visit(ValueId id);
   void copy(ValueId id);
@@ -53,6 +55,11 @@ private:
   void call(ValueId id);
   void nested(ValueId id);
 
+  std::vector<ValueId> values_of(const std::vector<ValueId>& sources) const {
+    std::vector<ValueId> values(sources.size());
+    std::ranges::transform(sources, values.begin(), [&](ValueId id) { return values_[id]; });
+    return values;
+  }
   bool is_root() const { return !seeds_.empty(); }
   const Instruction& source(ValueId id) const { return source_.instructions[id]; }
   ValueId component(ValueId value, unsigned c) {
@@ -135,6 +142,7 @@ Function Writer::write() {
   {
     Builder builder(function_);
     b_ = &builder;
+    if (is_root()) clear_captures();
     walk(source_.body);
   }
   return std::move(function_);
@@ -164,7 +172,8 @@ void Writer::declare_signature() {
                     [&](unsigned, unsigned) { function_.results.push_back(ValueType::Number); });
 }
 
-/// Captures, the captures' derivatives, then all other variables, each followed by its derivatives.
+/// Captures, the captures' derivatives (which are the root's own), then all other variables, each followed by its
+/// derivatives.
 void Writer::declare_variables() {
   variables_.resize(source_.variables.size());
   variable_tangents_.resize(source_.variables.size());
@@ -183,11 +192,30 @@ void Writer::declare_variables() {
     variables_[id] = declare(source_.variables[id]);
   for (VariableId id = 0; id < source_.captures; ++id)
     declare_tangents(id);
-  function_.captures = static_cast<uint32_t>(function_.variables.size());
+  function_.captures = is_root() ? source_.captures : static_cast<uint32_t>(function_.variables.size());
   for (VariableId id = source_.captures; id < source_.variables.size(); ++id) {
     variables_[id] = declare(source_.variables[id]);
     declare_tangents(id);
   }
+}
+
+/// What the root finds in its captures is constant; what it stores there may not be.
+void Writer::clear_captures() {
+  for (VariableId id = 0; id < source_.captures; ++id)
+    for_each_active(activity_.variables[id], source_.variables[id].type, [&](unsigned c, unsigned k) {
+      const VariableId variable = at(variable_tangents_[id], c, k);
+      for (uint32_t i = 0; i < source_.variables[id].count; ++i) {
+        if (source_.variables[id].count == 1) {
+          b_->store(variable, b_->number(0));
+          continue;
+        }
+        Instruction store{};
+        store.op = Op::StoreElement;
+        store.index = variable;
+        store.operands = {b_->integer(i), b_->number(0)};
+        b_->append(std::move(store));
+      }
+    });
 }
 
 void Writer::walk(const Block& block) {
@@ -240,8 +268,7 @@ void Writer::visit(ValueId id) {
 /// The instruction itself, of the new values and variables.
 void Writer::copy(ValueId id) {
   Instruction instruction = source(id);
-  for (ValueId& operand : instruction.operands)
-    operand = values_[operand];
+  instruction.operands = values_of(instruction.operands);
   for (VariableId& variable : instruction.variables)
     variable = variables_[variable];
   if (instruction.op == Op::Load || instruction.op == Op::Store || instruction.op == Op::LoadElement ||
@@ -252,8 +279,7 @@ void Writer::copy(ValueId id) {
 
 void Writer::nested(ValueId id) {
   Instruction instruction = source(id);
-  for (ValueId& operand : instruction.operands)
-    operand = values_[operand];
+  instruction.operands = values_of(instruction.operands);
   for (Block& block : instruction.blocks)
     block = b_->block([&, inner = block] { walk(inner); });
   values_[id] = b_->append(std::move(instruction));
@@ -280,8 +306,7 @@ void Writer::load(ValueId id) {
     Instruction load = instruction;
     load.type = ValueType::Number;
     load.index = at(variable_tangents_[variable], c, k);
-    for (ValueId& operand : load.operands)
-      operand = values_[operand];
+    load.operands = values_of(load.operands);
     set(tangents_[id], c, k, b_->append(std::move(load)));
   });
 }
@@ -293,8 +318,7 @@ void Writer::store(ValueId id) {
   for_each_active(activity_.variables[variable], source_.variables[variable].type, [&](unsigned c, unsigned k) {
     Instruction store = instruction;
     store.index = at(variable_tangents_[variable], c, k);
-    for (ValueId& operand : store.operands)
-      operand = values_[operand];
+    store.operands = values_of(store.operands);
     store.operands.back() = or_zero(tangent(instruction.operands.back(), c, k));
     b_->append(std::move(store));
   });
@@ -302,9 +326,7 @@ void Writer::store(ValueId id) {
 
 void Writer::return_values(ValueId id) {
   const std::vector<ValueId>& operands = source(id).operands;
-  std::vector<ValueId> results;
-  for (const ValueId operand : operands)
-    results.push_back(values_[operand]);
+  std::vector<ValueId> results = values_of(operands);
   for (size_t i = 0; i < operands.size(); ++i) {
     const ValueType type = source_.results[i];
     if (!is_root()) {
@@ -316,9 +338,9 @@ void Writer::return_values(ValueId id) {
     for (unsigned c = 0; c < component_count(type); ++c) {
       unsigned k = 0;
       for (const uint32_t seed : seeds_) {
-        std::vector<ValueId> gradient;
-        for (unsigned i_seed = 0; i_seed < component_count(source_.parameters[seed]); ++i_seed)
-          gradient.push_back(or_zero(tangent(operands[i], c, k++)));
+        std::vector<ValueId> gradient(component_count(source_.parameters[seed]));
+        for (ValueId& component : gradient)
+          component = or_zero(tangent(operands[i], c, k++));
         results.push_back(gradient.size() == 1 ? gradient[0]
                                                : b_->construct(source_.parameters[seed], std::move(gradient)));
       }
@@ -389,6 +411,7 @@ void Writer::compose(ValueId id) {
 ValueId Writer::differentiate_call(const LibraryFunction& row, unsigned parameters,
                                    const std::vector<ValueId>& operands, const std::vector<Tangents>& tangents,
                                    Tangents& result) {
+  assert(!is_derivative_export(row.symbol)); // the library has no second derivatives
   const LibraryDerivative* derivative = library_derivative(row, parameters);
   if (derivative == nullptr) return b_->call_library(row, row.results[0], operands);
   const ValueId made = b_->call_library(derivative->function, row.results[0], operands);
@@ -416,12 +439,9 @@ void Writer::library_call(ValueId id) {
   if (!activity_.values[id].any()) return copy(id);
   const Instruction& instruction = source(id);
   if (instruction.library->componentwise && is_vector(instruction.type)) return library_call_by_component(id);
-  std::vector<ValueId> operands;
-  std::vector<Tangents> tangents;
-  for (const ValueId operand : instruction.operands) {
-    operands.push_back(values_[operand]);
-    tangents.push_back(tangents_[operand]);
-  }
+  const std::vector<ValueId> operands = values_of(instruction.operands);
+  std::vector<Tangents> tangents(operands.size());
+  std::ranges::transform(instruction.operands, tangents.begin(), [&](ValueId operand) { return tangents_[operand]; });
   const unsigned parameters = ActivityAnalysis::active_parameters(instruction, activity_);
   values_[id] = differentiate_call(*instruction.library, parameters, operands, tangents, tangents_[id]);
 }
@@ -456,16 +476,13 @@ void Writer::call(ValueId id) {
   const FunctionActivity& callee = owner_.activity(key);
   const auto is_any = [](const Activity& activity) { return activity.any(); };
   if (std::ranges::none_of(key.arguments, is_any) && std::ranges::none_of(callee.variables, is_any)) return copy(id);
-  std::vector<ValueId> operands;
-  std::vector<VariableId> captures;
-  for (const ValueId operand : instruction.operands)
-    operands.push_back(values_[operand]);
+  std::vector<ValueId> operands = values_of(instruction.operands);
+  std::vector<VariableId> captures(instruction.variables.size());
+  std::ranges::transform(instruction.variables, captures.begin(), [&](VariableId id) { return variables_[id]; });
   for (size_t i = 0; i < instruction.operands.size(); ++i)
     for_each_active(key.arguments[i], source(instruction.operands[i]).type, [&](unsigned c, unsigned k) {
       operands.push_back(or_zero(tangent(instruction.operands[i], c, k)));
     });
-  for (const VariableId variable : instruction.variables)
-    captures.push_back(variables_[variable]);
   for (const VariableId variable : instruction.variables)
     for_each_active(activity_.variables[variable], source_.variables[variable].type,
                     [&](unsigned c, unsigned k) { captures.push_back(at(variable_tangents_[variable], c, k)); });

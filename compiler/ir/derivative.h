@@ -31,9 +31,10 @@ namespace moonshade::ir {
 /// More directions than this are too many for one derivative: two inputs of four components and more.
 inline constexpr unsigned kMaxDirections = 16;
 
-/// Adds a function with the parameters of `function` (which has no captures) and its results, followed, for each number
-/// and each component of a vector among them, by the gradient by each of `parameters` (indices; numbers or vectors, at
-/// most kMaxDirections components together), which has the parameter's type.
+/// Adds a function with the parameters and captures of `function` and its results, followed, for each number and each
+/// component of a vector among them, by the gradient by each of `parameters` (indices; numbers or vectors, at most
+/// kMaxDirections components together), which has the parameter's type. Captures count as constants; it stores in them
+/// what `function` does. No function that is made here may be differentiated again: the library has first derivatives.
 FunctionId add_gradient(Module& module, FunctionId function, std::span<const uint32_t> parameters);
 
 } // namespace moonshade::ir

@@ -105,6 +105,39 @@ TEST(Derivative, OfWhatIsConstantIsTheFunctionItself) {
   EXPECT_THAT(text, HasSubstr("-> number, integer, number {"));
 }
 
+TEST(Derivative, OfAFunctionThatCapturesTakesTheCaptureAsConstant) {
+  Module module;
+  module.functions.resize(2);
+  module.functions[0].name = "inner";
+  module.functions[0].captures = 1;
+  module.functions[0].variables = {{"seen", Number, 1}};
+  module.functions[0].parameters = {Number};
+  module.functions[0].parameter_names = {"x"};
+  module.functions[0].results = {Number};
+  {
+    // seen = seen * x; return seen
+    Builder b(module.functions[0]);
+    b.store(0, b.binary(Op::Mul, b.load(0), b.argument(0)));
+    b.return_values({b.load(0)});
+  }
+  const FunctionId gradient = add_gradient(module, 0, std::vector<uint32_t>{0});
+  module.functions[1].name = "f";
+  module.functions[1].results = {Number, Number, Number};
+  {
+    Builder b(module.functions[1]);
+    const VariableId seen = b.variable("mine", Number);
+    b.store(seen, b.number(5));
+    const ValueId call = b.call(gradient, module.functions[gradient].results, {b.number(3)}, {seen});
+    const ValueId slope = b.result(call, 1, Number);
+    b.return_values({call, slope, b.load(seen)});
+  }
+  module.functions.emplace_back().name = "init";
+  module.init = 3;
+  module.entries.push_back({"f", 1});
+  ASSERT_THAT(verify(module), IsEmpty()) << to_text(module);
+  EXPECT_EQ(to_text(Interpreter(module).run("f", {})), "15 5 15");
+}
+
 // Numbers -------------------------------------------------------------------------------------------------------------
 
 bool is_number(ValueType type) { return type != Boolean && type != Integer; }

@@ -58,7 +58,6 @@ constexpr RefusedName kRefusedNames[] = {
     {"print", Code::NotAvailableYet, "'print' is"},
     {"gradient", Code::NotAvailableYet, "'gradient' is"},
     {"fwidth", Code::NotAvailableYet, "'fwidth' is"},
-    {"aastep", Code::NotAvailableYet, "'aastep' is"},
     {"texture", Code::NotAvailableYet, "images ('texture') are"},
     {"mat3", Code::NotAvailableYet, "matrices ('mat3') are"},
     {"mat4", Code::NotAvailableYet, "matrices ('mat4') are"},
