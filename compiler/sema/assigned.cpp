@@ -6,6 +6,7 @@
 #include "compiler/sema/context.h"
 
 #include <algorithm>
+#include <functional>
 #include <set>
 
 namespace moonshade::sema {
@@ -60,6 +61,7 @@ public:
     work_.never_returns = !exit.is_reachable;
     for (const auto& [variable, number] : numbers_)
       if (exit.has(number) && (is_top() || !is_own(variable))) work_.assigns_always.push_back(variable);
+    std::ranges::sort(work_.assigns_always, std::less<>());
   }
 
 private:
@@ -285,10 +287,12 @@ void check_assigned(Context& context, Work& work) { Flow(context, work).run(); }
 
 void check_assigned_for_entry(Context& context, const Work& top, const Global& global, const Work& entry) {
   if (top.never_returns) return;
-  const std::set<const void*> assigned(top.assigns_always.begin(), top.assigns_always.end());
-  if (!assigned.contains(&global)) context.error(Code::FunctionNotKnown, global.definition, {std::string(global.name)});
+  const auto is_assigned = [&](const void* variable) {
+    return std::ranges::binary_search(top.assigns_always, variable, std::less<>());
+  };
+  if (!is_assigned(&global)) context.error(Code::FunctionNotKnown, global.definition, {std::string(global.name)});
   for (const Requirement& requirement : entry.requires_assigned)
-    if (!assigned.contains(requirement.variable))
+    if (!is_assigned(requirement.variable))
       context.error(Code::UnassignedVariable, requirement.place, {std::string(requirement.name)});
 }
 

@@ -71,6 +71,7 @@ struct Work {
   /// Of it and its callees.
   std::vector<Requirement> requires_assigned;
   /// Locals of enclosing functions that it assigns whenever it returns; of the top level all its variables.
+  /// Sorted.
   std::vector<const void*> assigns_always;
   bool never_returns = false; ///< every path ends in error() or an endless loop
   /// Locals of enclosing functions (not the top level) that it or its callees assign.
