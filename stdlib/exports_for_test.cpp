@@ -51,7 +51,8 @@ void call(void* function, void** p, unsigned count) {
     return call_with(std::make_index_sequence<n>());
     CASE(2)
     CASE(3)
-    CASE(4) CASE(5) CASE(6) CASE(7) CASE(8) CASE(9) CASE(10) CASE(11) CASE(12) CASE(13)
+    CASE(4)
+    CASE(5) CASE(6) CASE(7) CASE(8) CASE(9) CASE(10) CASE(11) CASE(12) CASE(13)
 #undef CASE
         default : throw std::logic_error("an export with more parameters than the test knows");
   }

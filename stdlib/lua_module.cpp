@@ -3,6 +3,7 @@
 #include "stdlib/lua_module.h"
 
 #include "stdlib/library.h"
+#include "stdlib/lua_calculus.h"
 #include "stdlib/lua_vector.h"
 #include "stdlib/signature.h"
 
@@ -378,6 +379,8 @@ int luaopen_moonshade(lua_State* state) {
   set_function(state, "vec4", construct_vec4, false);
   set_function(state, "rgb", construct_rgb, false);
   set_function(state, "param", param, false);
+  set_function(state, "gradient", lua_gradient, false);
+  set_function(state, "fwidth", lua_fwidth, false);
   open_vectors(state);
   lua_pop(state, 1);
   return 1;

@@ -1,0 +1,15 @@
+// The calculus of the dialect for stock Lua: derivatives by differences, where compiled code has exact ones.
+#pragma once
+
+#include <lua.hpp>
+
+namespace moonshade {
+
+/// gradient(f, p): of a function that gives a number, by the number or vector p, as central differences of the eighth
+/// order; to about 1e-9 of the function's size where it is smooth within a thousandth of |p| (at least of 1).
+int lua_gradient(lua_State* state);
+
+/// fwidth(f, p, fw): how much f changes over the footprint fw around p: the gradient's length times fw.
+int lua_fwidth(lua_State* state);
+
+} // namespace moonshade
