@@ -1,0 +1,1 @@
+sphre { radius = -1 }
