@@ -109,7 +109,7 @@ template <class I, int W, class V> MS_INLINE V select(LaneMask<I, W> mask, V a, 
 template <class L> MS_INLINE Mask<L> less(L a, L b) { return to_mask<L>(a < b); }
 template <class L> MS_INLINE Mask<L> less_equal(L a, L b) { return to_mask<L>(a <= b); }
 template <class L> MS_INLINE Mask<L> equal(L a, L b) { return to_mask<L>(a == b); }
-template <class L> MS_INLINE Mask<L> is_nan(L a) { return to_mask<L>(a != a); }
+template <class L> MS_INLINE Mask<L> is_nan(L a) { return to_mask<L>(a != a); } // NOLINT(misc-redundant-expression)
 
 // Numbers -------------------------------------------------------------------------------------------------------------
 

@@ -65,7 +65,7 @@ void MaterialSet::bend(const CompiledMaterial& material, ShadingBatch& batch, si
   if (material.gradient)
     bend_by_gradient(*material.gradient, batch, begin, count, targets, faults);
   else if (material.height)
-    bend_by_differences(material, batch, begin, count, targets, faults);
+    bend_by_differences(*material.height, material.bump, batch, begin, count, targets, faults);
 }
 
 void MaterialSet::bend_by_gradient(const HeightGradient& gradient, ShadingBatch& batch, size_t begin, size_t count,
@@ -83,9 +83,8 @@ void MaterialSet::bend_by_gradient(const HeightGradient& gradient, ShadingBatch&
     if (!codes[k]) bend_point(targets[k], total_derivative(gradient, batch, k, targets[k]), BumpMode::Gradient);
 }
 
-void MaterialSet::bend_by_differences(const CompiledMaterial& material, ShadingBatch& batch, size_t begin, size_t count,
-                                      const BumpTarget* targets, FaultLog& faults) const {
-  const EntryCall& height = *material.height;
+void MaterialSet::bend_by_differences(const EntryCall& height, BumpMode mode, ShadingBatch& batch, size_t begin,
+                                      size_t count, const BumpTarget* targets, FaultLog& faults) const {
   EntryCall::Inputs inputs = EntryCall::inputs_of(batch, begin);
   EntryCall::Inputs displaced = inputs;
   for (int c = 0; c < 3; ++c) {
@@ -93,7 +92,7 @@ void MaterialSet::bend_by_differences(const CompiledMaterial& material, ShadingB
     displaced[kWorld + c] = batch.scratch_inputs[3 + c].data();
   }
   // The gradient itself is wanted of shaders that cannot give it: then ε is as small as floats allow.
-  const float widening = material.bump == BumpMode::Gradient ? 0.0f : 0.5f;
+  const float widening = mode == BumpMode::Gradient ? 0.0f : 0.5f;
   auto epsilon = [&](size_t k) { return std::max(1e-4f * targets[k].placed->extent, widening * targets[k].footprint); };
   uint8_t* codes = batch.scratch_codes.data();
   std::fill_n(codes, count, uint8_t(0));
@@ -124,7 +123,7 @@ void MaterialSet::bend_by_differences(const CompiledMaterial& material, ShadingB
   }
   for (size_t k = 0; k < count; ++k) {
     if (codes[k]) continue;
-    bend_point(targets[k], central_difference(batch, inputs, k, epsilon(k)), material.bump);
+    bend_point(targets[k], central_difference(batch, inputs, k, epsilon(k)), mode);
   }
 }
 

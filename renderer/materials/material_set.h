@@ -84,7 +84,7 @@ public:
 private:
   void bend_by_gradient(const HeightGradient& gradient, ShadingBatch& batch, size_t begin, size_t count,
                         const BumpTarget* targets, FaultLog& faults) const;
-  void bend_by_differences(const CompiledMaterial& material, ShadingBatch& batch, size_t begin, size_t count,
+  void bend_by_differences(const EntryCall& height, BumpMode mode, ShadingBatch& batch, size_t begin, size_t count,
                            const BumpTarget* targets, FaultLog& faults) const;
 
   std::vector<CompiledMaterial> materials_;
