@@ -55,7 +55,9 @@ TEST_F(LuaScene, ReadsEveryKindOfThing) {
 TEST_F(LuaScene, NamesLineAndNearestNameOfWrongFields) {
   EXPECT_EQ(error("\n\nsphere{ radus = 1 }"), "s.lua:3: sphere: unknown field 'radus'; did you mean 'radius'?");
   EXPECT_EQ(error("sphere{ radius = 'big' }"), "s.lua:1: sphere: 'radius' is a number");
-  EXPECT_EQ(error("sphere{ radius = -1 }"), "s.lua:1: sphere: 'radius' lies between 1e-20 and 1e+30");
+  EXPECT_EQ(error("sphere{ radius = -1 }"), "s.lua:1: sphere: 'radius' lies between 1e-20 and 1e+09");
+  EXPECT_EQ(error("light{ type = 'area', u = {math.mininteger, 0, 0} }"),
+            "s.lua:1: light: 'u' lies between -1e+09 and 1e+09");
   EXPECT_EQ(error("sphere{ center = {1, 2} }"), "s.lua:1: sphere: 'center' is a list of 3 numbers");
   EXPECT_EQ(error("sphere{ center = {1, 2, 0/0} }"), "s.lua:1: sphere: 'center' is a list of 3 numbers");
   EXPECT_EQ(error("sphere{}\nlight{ type = 'sum' }"),

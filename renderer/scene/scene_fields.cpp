@@ -75,8 +75,12 @@ bool SceneFields::numbers(std::string_view name, const SceneValue& value, size_t
   bool ok = list && list->size() == count;
   for (size_t i = 0; ok && i < count; ++i) {
     std::optional<double> number = as_number((*list)[i]);
-    ok = number && std::isfinite(*number) && std::abs(*number) <= 1e30;
+    ok = number && std::isfinite(*number);
     if (ok) out[i] = *number;
+    if (ok && std::abs(*number) > kGreatest) {
+      fail("'" + std::string(name) + "' lies between " + plain(-kGreatest) + " and " + plain(kGreatest));
+      return false;
+    }
   }
   if (!ok) fail("'" + std::string(name) + "' is a list of " + std::to_string(count) + " numbers");
   return ok;

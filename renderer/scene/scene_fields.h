@@ -13,12 +13,15 @@ namespace moonshade::renderer {
 
 class SceneFields {
 public:
+  /// Products of four such numbers (areas squared, scaled sizes) are still finite in float.
+  static constexpr double kGreatest = 1e9;
+
   /// `what` names the call in messages ("sphere"), `place` its file and line.
   SceneFields(const SceneCall& call, std::string what, std::string place)
       : call_(call), what_(std::move(what)), place_(std::move(place)) {}
 
   bool has(std::string_view name) { return find(name) != nullptr; }
-  double number(std::string_view name, double otherwise, double least = -1e30, double most = 1e30);
+  double number(std::string_view name, double otherwise, double least = -kGreatest, double most = kGreatest);
   int64_t integer(std::string_view name, int64_t otherwise, int64_t least, int64_t most);
   bool boolean(std::string_view name, bool otherwise);
   std::string text(std::string_view name, const std::string& otherwise = "");

@@ -121,10 +121,11 @@ void check_agreement(const CheckedShader& shader, Precision precision, unsigned 
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   using namespace moonshade;
-  if (size > fuzz::kMaxInput / 4) return 0;
+  constexpr int kNotKept = -1; // libFuzzer goes on only from what compiles
+  if (size > fuzz::kMaxInput / 4) return kNotKept;
   const std::string_view text = fuzz::text_of(data, size);
   const CheckedShader shader("fuzz.lua", std::string(text));
-  if (!shader.ok()) return 0;
+  if (!shader.ok()) return kNotKept;
   const uint64_t choice = fuzz::choice_of(text);
   check_agreement(shader, choice & 1 ? Precision::F64 : Precision::F32, choice & 2 ? 8 : 4);
   return 0;
