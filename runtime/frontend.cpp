@@ -13,15 +13,28 @@
 
 namespace moonshade {
 
+CheckedShader::CheckedShader() : parts_(std::make_unique<Parts>()) {}
+
 CheckedShader::CheckedShader(const std::string& name, const std::string& text, const std::vector<std::string>& entries)
-    : parts_(std::make_unique<Parts>()) {
+    : CheckedShader() {
+  parse(name, text);
+  if (!ok()) return;
+  Stopwatch watch;
+  parts_->program = sema::check(*parts_->chunk, {entries}, parts_->diagnostics);
+  parts_->sema_milliseconds = watch.lap();
+}
+
+CheckedShader CheckedShader::parsed(const std::string& name, const std::string& text) {
+  CheckedShader shader;
+  shader.parse(name, text);
+  return shader;
+}
+
+void CheckedShader::parse(const std::string& name, const std::string& text) {
   Stopwatch watch;
   const FileId file = parts_->sources.add(name, text);
   parts_->chunk = syntax::parse(parts_->sources, file, parts_->arena, parts_->diagnostics);
   parts_->parse_milliseconds = watch.lap();
-  if (!ok()) return;
-  parts_->program = sema::check(*parts_->chunk, {entries}, parts_->diagnostics);
-  parts_->sema_milliseconds = watch.lap();
 }
 
 CheckedShader::~CheckedShader() = default;

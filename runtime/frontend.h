@@ -17,6 +17,9 @@ public:
   CheckedShader(CheckedShader&&) noexcept;
   CheckedShader& operator=(CheckedShader&&) noexcept;
 
+  /// Parsed alone, for Stage::Ast: all of Lua is `ok()`, whatever the dialect leaves out.
+  static CheckedShader parsed(const std::string& name, const std::string& text);
+
   bool ok() const; ///< no error was reported
   const ShaderInfo& info() const;
   const Diagnostics& diagnostics() const;
@@ -26,6 +29,9 @@ public:
   const Parts& parts() const { return *parts_; }
 
 private:
+  CheckedShader();
+  void parse(const std::string& name, const std::string& text);
+
   std::unique_ptr<Parts> parts_;
 };
 

@@ -117,6 +117,7 @@ std::optional<Type> Walker::conditional_type(const BinaryExpr& expr, const std::
       return std::nullopt;
     }
     const std::optional<Type> joined = join(type, arm.type);
+    if (!joined && type.kind == Type::Kind::String && arm.type.kind == Type::Kind::String) break; // two strings
     if (!joined) {
       type_error(Code::ConditionalTypes, expr.span, {describe(type), describe(arm.type)});
       return std::nullopt;

@@ -29,6 +29,7 @@ int measure_file(const std::string& path, const Options& options, std::vector<Ro
   print_text(shader.diagnostics(), shader.sources(), std::cerr, isatty(STDERR_FILENO));
   if (!shader.ok()) return kInputAtFault;
   const auto& entries = shader.info().entries;
+  if (entries.empty()) return fail(kInputAtFault, path + ": the shader has no entry points");
   for (size_t entry = 0; entry < entries.size(); ++entry) {
     if (!wanted(options, entries[entry].name)) continue;
     if (isatty(STDERR_FILENO)) std::cerr << path << ": " << entries[entry].name << "\n";

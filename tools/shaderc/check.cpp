@@ -67,7 +67,9 @@ CheckedFile check_file(const std::string& path, const Options& options, Reporter
     return {nullptr, tools::kInputAtFault};
   }
   const auto start = Clock::now();
-  auto shader = std::make_unique<CheckedShader>(path, std::move(file.text), options.compile.entries);
+  // The tree is the parser's: what the dialect leaves out has one, too.
+  auto shader = options.emit == Stage::Ast ? std::make_unique<CheckedShader>(CheckedShader::parsed(path, file.text))
+                                           : std::make_unique<CheckedShader>(path, file.text, options.compile.entries);
   const std::chrono::duration<double, std::milli> time = Clock::now() - start;
   const std::string missing_entry = only_missing_entry(shader->diagnostics());
   if (missing_entry.empty()) reporter.add(shader->diagnostics(), shader->sources());

@@ -1,0 +1,6 @@
+
+function height(p)
+  local q = p.x > 0 and "a" or "b"
+  return p.x
+end
+-- error: 3:13 not-available-yet
