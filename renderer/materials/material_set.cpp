@@ -19,9 +19,11 @@ public:
       : material_(material), source_(source), overrides_(overrides) {}
 
   std::string load(CompiledMaterial& compiled, std::string& warnings);
+  bool uses_shaders() const { return !loaded_.empty(); }
 
 private:
   std::string shader_of(const std::string& file, std::shared_ptr<const Shader>& shader, std::string& warnings);
+  void note_unknown(const std::string& file, const std::map<std::string, std::string>& unknown);
   std::string from_whole_file(CompiledMaterial& compiled, std::string& warnings);
   std::string slot(CompiledMaterial& compiled, Slot slot, const std::string& file, std::string& warnings);
   std::string height(CompiledMaterial& compiled, const std::string& file, std::string& warnings);
@@ -30,7 +32,16 @@ private:
   ShaderSource& source_;
   const std::map<std::string, std::string>& overrides_;
   std::map<std::string, std::shared_ptr<const Shader>> loaded_;
+  std::map<std::string, std::string> unknown_; ///< parameters that none of the shaders has so far, each with a message
 };
+
+/// One of the material's shaders is enough to know a parameter.
+void MaterialLoader::note_unknown(const std::string& file, const std::map<std::string, std::string>& unknown) {
+  if (loaded_.size() == 1)
+    for (const auto& [name, message] : unknown)
+      unknown_[name] = file + ": " + message;
+  std::erase_if(unknown_, [&](const auto& known) { return !unknown.contains(known.first); });
+}
 
 std::string MaterialLoader::shader_of(const std::string& file, std::shared_ptr<const Shader>& shader,
                                       std::string& warnings) {
@@ -38,10 +49,9 @@ std::string MaterialLoader::shader_of(const std::string& file, std::shared_ptr<c
   if (!known) {
     ShaderLoad load = source_.load(file, material_.parameters, overrides_);
     warnings += load.warnings;
-    if (!load.shader)
-      return load.error + (load.error.ends_with('\n') ? "" : "\n") + material_.place + ": note: the material '" +
-             material_.name + "' uses this shader\n";
+    if (!load.shader) return load.error;
     known = load.shader;
+    note_unknown(file, load.unknown);
   }
   shader = known;
   return "";
@@ -124,7 +134,7 @@ std::string MaterialLoader::load(CompiledMaterial& compiled, std::string& warnin
   for (const auto& call : compiled.calls)
     if (call) compiled.needs |= call->needs();
   if (compiled.height) compiled.needs |= compiled.height->needs();
-  return "";
+  return unknown_.empty() ? "" : unknown_.begin()->second;
 }
 
 /// The line of `function NAME` in a shader's file, for results that are not finite (which have no place of their own).
@@ -189,10 +199,15 @@ std::string MaterialSet::build(const Scene& scene, ShaderSource& source,
     static const std::map<std::string, std::string> none;
     CompiledMaterial compiled;
     MaterialLoader loader(material, source, found == overrides.end() ? none : found->second);
-    if (std::string error = loader.load(compiled, warnings); !error.empty()) return error;
+    if (std::string error = loader.load(compiled, warnings); !error.empty())
+      return error + (error.ends_with('\n') ? "" : "\n") + material.place + ": note: the material '" + material.name +
+             "' uses this shader\n";
     for (const auto& call : compiled.calls)
       if (call) materials.width_ = std::max(materials.width_, call->shader().width());
     if (compiled.height) materials.width_ = std::max(materials.width_, compiled.height->shader().width());
+    if (found != overrides.end() && !loader.uses_shaders())
+      return "-D: the material '" + material.name + "' has no shader, so no parameter '" +
+             found->second.begin()->first + "'";
     materials.materials_.push_back(std::move(compiled));
   }
   return "";

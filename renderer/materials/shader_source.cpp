@@ -58,9 +58,11 @@ ShaderFile& RuntimeShaders::open(const std::string& file) {
   return shader;
 }
 
-/// Every given parameter as a value of its type, or an error that names it.
+/// Every given parameter as a value of its type, or an error that names it; those that the shader lacks go to
+/// `strange`.
 std::string merge(const ShaderInfo& info, const std::map<std::string, Constant>& parameters,
-                  const std::map<std::string, std::string>& overrides, std::map<std::string, Constant>& merged) {
+                  const std::map<std::string, std::string>& overrides, std::map<std::string, Constant>& merged,
+                  std::map<std::string, std::string>& strange) {
   std::vector<std::string_view> names;
   names.reserve(info.parameters.size());
   for (const ParameterInfo& p : info.parameters)
@@ -76,14 +78,20 @@ std::string merge(const ShaderInfo& info, const std::map<std::string, Constant>&
   };
   for (const auto& [name, value] : parameters) {
     const ParameterInfo* parameter = find(name);
-    if (!parameter) return unknown(name);
+    if (!parameter) {
+      strange[name] = unknown(name);
+      continue;
+    }
     CheckedConstant checked = check_override(*parameter, value);
     if (!checked.error.empty()) return checked.error;
     merged[name] = checked.value;
   }
   for (const auto& [name, text] : overrides) {
     const ParameterInfo* parameter = find(name);
-    if (!parameter) return unknown(name);
+    if (!parameter) {
+      strange[name] = unknown(name);
+      continue;
+    }
     CheckedConstant checked = parse_override(*parameter, text);
     if (!checked.error.empty()) return checked.error;
     merged[name] = checked.value;
@@ -98,7 +106,7 @@ ShaderLoad RuntimeShaders::load(const std::string& file, const std::map<std::str
   if (!shader.error.empty()) return load.error = shader.error, load;
   load.warnings = std::exchange(shader.warnings, "");
   std::map<std::string, Constant> merged;
-  load.error = merge(shader.checked->info(), parameters, overrides, merged);
+  load.error = merge(shader.checked->info(), parameters, overrides, merged, load.unknown);
   if (!load.error.empty()) return load.error = file + ": " + load.error, load;
   // Steps are counted exactly where the shader is compiled; the interpreter's guard against endless loops is enough
   // here.

@@ -14,6 +14,9 @@ struct ShaderLoad {
   std::shared_ptr<const Shader> shader; ///< null where `error` is set
   std::string error;                    ///< diagnostics, or what is wrong with a parameter
   std::string warnings;
+  /// Given names that are no parameters of this shader, each with a message for where no other shader of the material
+  /// has it either.
+  std::map<std::string, std::string> unknown = {};
 };
 
 class ShaderSource {
