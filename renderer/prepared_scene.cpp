@@ -24,9 +24,20 @@ static std::string unknown_material(const Scene& scene, const Overrides& overrid
   return "";
 }
 
+/// Squares and products of what lies farther out leave the range of floats.
+static std::string too_far_out(const Scene& scene) {
+  for (const Object& object : scene.objects) {
+    Box box = bounds_of(object);
+    if (max_component(glm::max(glm::abs(box.low), glm::abs(box.high))) <= 1e15f) continue;
+    return scene.file + ": the object '" + object.name + "' lies too far out; coordinates reach to 1e15";
+  }
+  return "";
+}
+
 Preparation prepare(Scene scene, ShaderSource& shaders, const Overrides& overrides) {
   Preparation result;
   result.error = unknown_material(scene, overrides);
+  if (result.error.empty()) result.error = too_far_out(scene);
   if (!result.error.empty()) return result;
   auto prepared = std::make_unique<PreparedScene>();
   prepared->scene = std::move(scene);

@@ -197,8 +197,9 @@ void compute_missing_normals(Mesh& mesh, const Smoothing& smoothing) {
 Box bounds_of(const Object& object) {
   Box box;
   if (object.shape == Shape::Mesh) {
-    for (const Vec3& p : object.mesh->positions)
-      if (is_finite(p)) box.add(Vec3(object.to_world * Vec4(p, 1)));
+    for (const Mesh::Corners& corners : object.mesh->triangles) // a vertex of no face is not seen
+      for (uint32_t corner : corners)
+        box.add(Vec3(object.to_world * Vec4(object.mesh->positions[corner], 1)));
     return box;
   }
   Vec3 center(object.to_world[3]), reach;

@@ -5,6 +5,7 @@
 #include "renderer/scene/mesh.h"
 #include "renderer/scene/mtl_reader.h"
 
+#include <charconv>
 #include <istream>
 #include <map>
 #include <set>
@@ -80,6 +81,44 @@ Numbers check_numbers(std::string_view line, size_t least) {
   return count >= least ? Numbers::Good : Numbers::Malformed;
 }
 
+/// Reads one index of a corner, "" being none; false where it is no whole number that an int holds.
+bool read_index(std::string_view text, int& index) {
+  index = 0;
+  if (text.empty()) return true;
+  auto [end, error] = std::from_chars(text.data() + (text[0] == '+'), text.data() + text.size(), index);
+  return error == std::errc() && end == text.data() + text.size();
+}
+
+/// Rewrites the corners of a face in the few forms that tinyobjloader reads without guessing; gives the corner that is
+/// none of `v`, `v/t`, `v//n`, `v/t/n`.
+std::string plain_corners(std::string& line) {
+  std::string plain = "f";
+  std::istringstream words(line);
+  std::string word;
+  for (words >> word; words >> word;) {
+    int index[3] = {0, 0, 0};
+    std::string_view rest = word;
+    for (int k = 0; k < 3; ++k) {
+      size_t end = std::min(rest.find('/'), rest.size());
+      if (!read_index(rest.substr(0, end), index[k])) return word;
+      if (end == rest.size()) {
+        rest = "";
+        break;
+      }
+      rest.remove_prefix(end + 1);
+      if (k == 2) return word;
+    }
+    plain += ' ' + std::to_string(index[0]);
+    if (index[1] || index[2]) plain += '/' + (index[1] ? std::to_string(index[1]) : "");
+    if (index[2]) plain += '/' + std::to_string(index[2]);
+  }
+  line = std::move(plain);
+  return "";
+}
+
+/// Squares and products of what lies farther out leave the range of floats.
+constexpr float kFarthest = 1e15f;
+
 /// Collects what the callbacks deliver.
 class ObjBuilder {
 public:
@@ -147,7 +186,10 @@ bool ObjBuilder::feed(std::string& line) {
     if (geometry) {
       if (size_t comment = line.find('#'); comment != std::string::npos && line.find("1.#") == std::string::npos)
         line.resize(comment);
-      if (word != "f") check_geometry(line, word == "vt" ? 1 : 3);
+      if (word != "f")
+        check_geometry(line, word == "vt" ? 1 : 3);
+      else if (std::string wrong = plain_corners(line); !wrong.empty())
+        fail("'" + wrong + "' is no corner of a face: expected v, v/t, v//n or v/t/n");
       if (reading_.error.empty()) return true;
     } else if (word == "usemtl") {
       use_material(rest_of(line));
@@ -241,6 +283,8 @@ void ObjBuilder::face(const tinyobj::index_t* corners, size_t count) {
       ++not_finite_;
       return;
     }
+    if (max_component(glm::abs(mesh().positions[p])) > kFarthest)
+      return fail("vertex " + std::to_string(p + 1) + " lies too far out; coordinates reach to 1e15");
     ids_.push_back(p), uv_ids_.push_back(t), normal_ids_.push_back(n);
     polygon_.push_back(mesh().positions[p]);
   }

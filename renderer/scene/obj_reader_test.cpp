@@ -1,5 +1,7 @@
 #include "renderer/scene/obj_reader.h"
 
+#include "renderer/scene/mesh.h"
+#include "renderer/scene/read_scene.h"
 #include "renderer/test_support.h"
 
 #include <gmock/gmock.h>
@@ -81,6 +83,35 @@ TEST(ObjReader, NamesFileAndLineOfWhatIsWrong) {
   EXPECT_EQ(parse(kSquare + "f 0 1 2\n").error, "m.obj:5: the face names vertex 0, but there are 4 so far");
   EXPECT_EQ(parse("v 1 2\nf 1 1 1\n").error, "m.obj:1: expected at least 3 numbers");
   EXPECT_EQ(parse("v a b c\n").error, "m.obj:1: expected at least 3 numbers");
+}
+
+TEST(ObjReader, RefusesCornersThatAreNoIndices) {
+  for (const char* corner : {"99999999999999999999", "1.5", "1/x", "1/1/1/1", "x"})
+    EXPECT_EQ(parse(kSquare + "f " + corner + " 2 3\n").error,
+              "m.obj:5: '" + std::string(corner) + "' is no corner of a face: expected v, v/t, v//n or v/t/n");
+}
+
+TEST(ObjReader, ReadsCornersWithEmptyPlaces) {
+  ObjReading obj = parse(kSquare + "f 1/ 2// 3//\n");
+  ASSERT_TRUE(obj.mesh) << obj.error;
+  EXPECT_EQ(obj.mesh->triangles.size(), 1u);
+}
+
+TEST(ObjReader, RefusesWhatLiesTooFarOut) {
+  EXPECT_EQ(parse("v 0 0 0\nv 1 0 0\nv 1e20 1 0\nf 1 2 3\n").error,
+            "m.obj:4: vertex 3 lies too far out; coordinates reach to 1e15");
+}
+
+TEST(ObjReader, FramesWhatFacesUse) {
+  Object object;
+  object.mesh = parse(kSquare + "v 1000 0 0\nf 1 2 3 4\n").mesh;
+  EXPECT_EQ(bounds_of(object).high.x, 1);
+}
+
+TEST(ObjReader, RefusesBareModelsTooSmallToFrame) {
+  TemporaryFolder folder;
+  std::string file = folder.write("tiny.obj", "v 0 0 0\nv 1e-15 0 0\nv 0 1e-15 0\nf 1 2 3\n");
+  EXPECT_THAT(read_scene(file).error, HasSubstr("tiny.obj: "));
 }
 
 TEST(ObjReader, RefusesWhatHasNoFaces) {

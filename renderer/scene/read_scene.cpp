@@ -58,7 +58,12 @@ static SceneReading scene_of_obj(const std::string& path, const Folders& folders
   for (uint32_t m = 0; m < scene.materials.size(); ++m)
     object.materials.push_back(m);
   scene.objects.push_back(std::move(object));
-  scene.camera = framing_camera(bounds_of(scene));
+  Box bounds = bounds_of(scene);
+  if (bounds.radius() < 1e-6f) {
+    reading.error = path + ": the model is smaller than a millionth; place it in a scene with a 'scale'";
+    return reading;
+  }
+  scene.camera = framing_camera(bounds);
   add_daylight(scene);
   reading.scene = std::move(scene);
   return reading;
