@@ -51,6 +51,12 @@ std::string trimmed(const std::string& text) {
   return begin == std::string::npos ? "" : text.substr(begin, end + 1 - begin);
 }
 
+std::string lower_case(std::string text) {
+  for (char& c : text)
+    c = char(std::tolower((unsigned char)c));
+  return text;
+}
+
 std::string rest(std::istringstream& words) {
   std::string text;
   std::getline(words, text);
@@ -59,6 +65,10 @@ std::string rest(std::istringstream& words) {
 
 void MtlParser::name_shader(const std::string& key, const std::string& file) {
   ResolvedPath resolved = folders_.resolve(folder_of(path_), file);
+  // A file of the whole name wins over a comment.
+  size_t comment = file.find(" #");
+  if (!resolved.error.empty() && comment != std::string::npos)
+    resolved = folders_.resolve(folder_of(path_), trimmed(file.substr(0, comment)));
   if (!resolved.error.empty()) return fail(key + "_shader: " + resolved.error);
   if (key == "texture") material().shaders[size_t(Slot::Color)] = resolved.path;
   if (key == "reflect") material().shaders[size_t(Slot::Reflectance)] = resolved.path;
@@ -80,8 +90,12 @@ bool MtlParser::shader_statement(const std::string& key, std::istringstream& wor
     std::streampos before = words.tellg();
     std::string second, file;
     words >> second;
-    if (second == "shader" && !(file = rest(words)).empty()) {
-      name_shader(name, file);
+    if (second == "shader") {
+      file = rest(words);
+      if (file.empty())
+        fail(key + " shader names no file");
+      else
+        name_shader(name, file);
       return true;
     }
     words.clear();
@@ -154,6 +168,8 @@ void MtlParser::line(std::string_view text) {
     scalar(key, words);
   else if (key.starts_with("map_") || key == "bump" || key == "disp" || key == "norm")
     warn("images ('" + key + "') are not available yet; ignored");
+  else if (std::string lower = lower_case(std::string(text)); lower.find("shader") != std::string::npos)
+    warn("unknown statement '" + key + "'; shaders are named by texture_shader, bump_shader and reflect_shader");
 }
 
 } // namespace

@@ -33,6 +33,17 @@ TEST_F(MtlReader, KnowsBothSpellingsOfTheShaderStatements) {
   }
 }
 
+TEST_F(MtlReader, ReportsShaderStatementsThatNameNothingOrAreUnknown) {
+  EXPECT_THAT(parse("newmtl m\ntexture shader\n").error, HasSubstr("m.mtl:2: texture shader names no file"));
+  MtlReading mtl = parse("newmtl m\nTexture_Shader a.lua\nbumps shader b.lua\n");
+  ASSERT_EQ(mtl.warnings.size(), 2u);
+  EXPECT_THAT(mtl.warnings[0], HasSubstr("m.mtl:2: unknown statement 'Texture_Shader'"));
+}
+
+TEST_F(MtlReader, CutsCommentsBehindShaderNames) {
+  EXPECT_EQ(parse("newmtl m\ntexture_shader a.lua # copper\n").materials[0].shaders[0], folder_ / "a.lua");
+}
+
 TEST_F(MtlReader, TakesNamesWithBlanksAndBackslashes) {
   EXPECT_EQ(parse("newmtl m\ntexture_shader with blank.lua\n").materials[0].shaders[0], folder_ / "with blank.lua");
   EXPECT_EQ(parse("newmtl m\ntexture_shader sub\\c.lua\n").materials[0].shaders[0], folder_ / "sub/c.lua");
