@@ -5,7 +5,6 @@ import signal
 import subprocess
 import sys
 import tempfile
-import time
 
 moonrender, scenes = sys.argv[1], sys.argv[2]
 failures = 0
@@ -55,14 +54,16 @@ with tempfile.TemporaryDirectory() as folder:
     run(bumpy, "-o", image, "--size=12", status=2, error="--size: expected WxH")
     run(bumpy, "-o", image, "--size=0x5", status=2, error="--size lies between")
     run(bumpy, "-o", image, "--size=99999999999x5", status=2, error="--size")
+    run(bumpy, "-o", image, "--size=65536x65536", status=3, error="not enough memory")
+    run(bumpy, "-o", image, "--clamp=-1", status=2, error="--clamp lies between 0 and 1e+30")
     run(bumpy, "-o", image, "--spp=0", status=2, error="--spp lies between")
     run(bumpy, "-o", image, "--spp=many", status=2, error="spp")
     run(bumpy, "-o", image, "--integrator=pth", status=2, error="did you mean 'path'?")
     run(bumpy, "-o", image, "--width=3", status=2, error="--width: expected")
     run(bumpy, "-o", image, "-D", "scale=2", status=2, error="expected MATERIAL.NAME=VALUE")
     run(bumpy, "-o", image, "--crop=0,0,4000,4000", status=2, error="--crop lies outside the image")
-    run(bumpy, "-o", os.path.join(folder, "none/a.png"), status=2, error="No such file")
-    run(bumpy, "-o", image, f"--stats={folder}/none/s.json", status=2, error="none/s.json: No such file")
+    run(bumpy, "-o", os.path.join(folder, "none/a.png"), status=3, error="No such file")
+    run(bumpy, "-o", image, f"--stats={folder}/none/s.json", status=3, error="none/s.json: No such file")
     for option in ("--noise=0.1", "--frames=1-2", "--fps=24", "--preview=x.png", "--tev", "--cache-dir=x", "--no-cache",
                    "--bake", "--aov=depth", "--resume", "--checkpoint=5", "--integrator=sppm", "--integrator=irradiance"):
         run(bumpy, "-o", image, option, status=2, error="not available yet")
@@ -72,6 +73,11 @@ with tempfile.TemporaryDirectory() as folder:
     run(os.path.join(scenes, "none.lua"), "-o", image, status=1, error="none.lua: error: No such file")
     run(os.path.join(scenes, "broken.scene.lua"), "-o", image, status=1, error="broken.lua:2:")
     run(bumpy, "-o", image, "-D", "bumpy.scale=100", status=1, error="scale")
+    far = os.path.join(folder, "far.lua")
+    with open(far, "w") as file:
+        file.write("sphere{ radius = 1e8, scale = 1e9 }\n")
+    run(far, "-o", image, status=1, error="far.lua: error: the object 'sphere' lies too far out")
+    os.remove(far)
     wrong = os.path.join(folder, "wrong.lua")
     with open(wrong, "w") as file:
         file.write("sphere{}\nlight{ type = 'sun', colour = 1 }\n")
@@ -99,6 +105,11 @@ with tempfile.TemporaryDirectory() as folder:
     check(strip(bytes_of(image)) != strip(shot), "the seed changes nothing")
     run(bumpy, "-o", image, *small, "--stats=-", output='"seconds"')
     run(os.path.join(scenes, "strange.obj"), "-o", os.path.join(folder, "a.jpg"), *small)
+    # A parameter belongs to whichever of a material's shaders has it.
+    model = os.path.join(scenes, "several.obj")
+    run(model, "-o", os.path.join(folder, "a.jpg"), *small, "-D", "several.depth=0.1", "-D", "several.tint=1,0,0")
+    run(model, "-o", image, *small, "-D", "several.dept=0.1", status=1, error="no parameter 'dept'")
+    run(model, "-o", image, *small, "-D", "plain.depth=1", status=1, error="the material 'plain' has no shader")
     run(os.path.join(scenes, "faulty.scene.lua"), "-o", image, *small, error="faulty.lua:")
     run(bumpy, "-o", image, *small, "--time=0.001", "--spp=100000")
     check(sorted(os.listdir(folder)) == ["a.exr", "a.jpg", "a.png", "stats.json"], f"files: {os.listdir(folder)}")
@@ -106,10 +117,14 @@ with tempfile.TemporaryDirectory() as folder:
 
     # Ctrl-C: a whole image of the passes done, status 130, nothing left over.
     os.remove(image)
-    process = subprocess.Popen([moonrender, bumpy, "-o", image, "--spp=1000000"], stderr=subprocess.PIPE, text=True)
-    time.sleep(1.5)
+    # The first line of progress says that passes are done, however busy the machine is.
+    process = subprocess.Popen([moonrender, bumpy, "-o", image, "--spp=16000000"], stderr=subprocess.PIPE, text=True)
+    message = process.stderr.readline()
+    while " 0/16000000 samples" in message:
+        message = process.stderr.readline()
+    check("/16000000 samples" in message, f"progress: {message}")
     process.send_signal(signal.SIGINT)
-    message = process.communicate(timeout=60)[1]
+    message = process.communicate(timeout=120)[1]
     check(process.returncode == 130, f"interrupted: exit {process.returncode}")
     check("interrupted; the image has" in message, f"interrupted: {message}")
     check(b"interrupted" in bytes_of(image), "the metadata do not say interrupted")

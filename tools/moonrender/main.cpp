@@ -22,6 +22,7 @@ enum Exit { kDone = 0, kInputAtFault = 1, kCallAtFault = 2, kMachineAtFault = 3,
 struct Interruptible {
   std::atomic<std::atomic<bool>*> cancel = nullptr; ///< set while there is a render to end in order
   char temporary[4096] = "";                        ///< the image file not in place yet
+  std::atomic<bool> has_temporary = false;
 };
 Interruptible g_interruptible;
 
@@ -30,7 +31,7 @@ Interruptible g_interruptible;
 void interrupt(int) {
   std::atomic<bool>* cancel = g_interruptible.cancel;
   if (cancel && !cancel->exchange(true)) return;
-  if (g_interruptible.temporary[0]) ::unlink(g_interruptible.temporary);
+  if (g_interruptible.has_temporary) ::unlink(g_interruptible.temporary);
   ::_exit(kInterrupted);
 }
 
@@ -40,8 +41,13 @@ struct OrderlyInterrupts {
   ~OrderlyInterrupts() { g_interruptible.cancel = nullptr; }
 };
 
-void catch_interrupts(const std::string& temporary) {
-  if (temporary.size() < sizeof g_interruptible.temporary) std::strcpy(g_interruptible.temporary, temporary.c_str());
+void remove_when_interrupted(const std::string& temporary) {
+  if (temporary.size() >= sizeof g_interruptible.temporary) return;
+  std::strcpy(g_interruptible.temporary, temporary.c_str());
+  g_interruptible.has_temporary = true;
+}
+
+void catch_interrupts() {
   struct sigaction action{};
   action.sa_handler = interrupt;
   action.sa_flags = SA_RESTART;
@@ -80,6 +86,18 @@ void list_faults(const renderer::RenderResult& result) {
   }
 }
 
+/// What certainly does not fit is refused at once: systems that promise more memory than there is would end the program
+/// later, without a word.
+std::string check_memory(const Options& options, const renderer::Settings& settings) {
+  constexpr double kBytesAPixel = 64; // sums, the pass in hand, the picture, its encoding
+  auto crop = options.render.crop.value_or(renderer::Crop{0, 0, settings.width, settings.height});
+  double needed = kBytesAPixel * crop.width * crop.height;
+  double memory = double(::sysconf(_SC_PHYS_PAGES)) * double(::sysconf(_SC_PAGESIZE));
+  if (needed <= memory) return "";
+  return "not enough memory: " + std::to_string(crop.width) + "x" + std::to_string(crop.height) + " pixels take some " +
+         std::to_string(uint64_t(needed / 1e9)) + " GB; --crop renders a part";
+}
+
 int run(const Options& options) {
   Timer timer;
   renderer::SceneReading reading = renderer::read_scene(options.scene);
@@ -88,12 +106,14 @@ int run(const Options& options) {
   if (!reading.scene) return fail(kInputAtFault, of_kind("error", reading.error));
   if (std::string error = apply(options, reading.scene->settings); !error.empty())
     return fail(kCallAtFault, "moonrender: error: " + error);
+  if (std::string error = check_memory(options, reading.scene->settings); !error.empty())
+    return fail(kMachineAtFault, "moonrender: error: " + error);
   renderer::ImageFile image;
   if (std::string error = image.open(options.output); !error.empty())
-    return fail(kCallAtFault, "moonrender: error: " + error);
-  catch_interrupts(image.temporary());
+    return fail(kMachineAtFault, "moonrender: error: " + error);
+  remove_when_interrupted(image.temporary());
   if (std::string error = check_stats_place(options); !error.empty())
-    return fail(kCallAtFault, "moonrender: error: " + error);
+    return fail(kMachineAtFault, "moonrender: error: " + error);
   double read_seconds = timer.lap();
 
   auto shaders = renderer::runtime_shaders(options.shaders);
@@ -135,6 +155,7 @@ int run(const Options& options) {
 
 int main(int argc, char** argv) {
   using namespace moonshade::moonrender;
+  catch_interrupts();
   ParsedOptions parsed = parse_options(argc, argv);
   if (!parsed.options) return parsed.exit_code;
   try {

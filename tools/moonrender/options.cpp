@@ -65,10 +65,15 @@ struct Given {
   std::vector<std::string> defines;
 };
 
+std::string short_text(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.15g", value);
+  return text;
+}
+
 template <typename T> T in_range(double value, double low, double high, const char* option) {
   if (!(value >= low && value <= high))
-    throw UsageError{std::string(option) + " lies between " + std::to_string(int64_t(low)) + " and " +
-                     std::to_string(int64_t(high))};
+    throw UsageError{std::string(option) + " lies between " + short_text(low) + " and " + short_text(high)};
   return T(value);
 }
 
