@@ -7,6 +7,17 @@
 namespace moonshade {
 namespace {
 
+/// The files of one kind, by precision and in the order of kWidths.
+struct Blobs {
+  std::array<std::span<const char>, kWidths.size()> f32, f64;
+};
+
+std::span<const char> find(const Blobs& blobs, Precision precision, unsigned width) {
+  for (size_t i = 0; i < kWidths.size(); ++i)
+    if (kWidths[i] == width) return precision == Precision::F32 ? blobs.f32[i] : blobs.f64[i];
+  return {};
+}
+
 namespace exports {
 alignas(8) constexpr char f32_w1[] = {
 #embed "exports_f32_w1.bc"
@@ -39,23 +50,7 @@ alignas(8) constexpr char f64_w32[] = {
 #embed "exports_f64_w32.bc"
 };
 
-std::span<const char> bitcode(Precision precision, unsigned width) {
-  bool f32 = precision == Precision::F32;
-  switch (width) {
-  case 1:
-    return f32 ? std::span<const char>(f32_w1) : f64_w1;
-  case 4:
-    return f32 ? std::span<const char>(f32_w4) : f64_w4;
-  case 8:
-    return f32 ? std::span<const char>(f32_w8) : f64_w8;
-  case 16:
-    return f32 ? std::span<const char>(f32_w16) : f64_w16;
-  case 32:
-    return f32 ? std::span<const char>(f32_w32) : f64_w32;
-  default:
-    return {};
-  }
-}
+constexpr Blobs blobs = {{f32_w1, f32_w4, f32_w8, f32_w16, f32_w32}, {f64_w1, f64_w4, f64_w8, f64_w16, f64_w32}};
 } // namespace exports
 
 namespace derivatives {
@@ -90,32 +85,16 @@ alignas(8) constexpr char f64_w32[] = {
 #embed "derivatives_f64_w32.bc"
 };
 
-std::span<const char> bitcode(Precision precision, unsigned width) {
-  bool f32 = precision == Precision::F32;
-  switch (width) {
-  case 1:
-    return f32 ? std::span<const char>(f32_w1) : f64_w1;
-  case 4:
-    return f32 ? std::span<const char>(f32_w4) : f64_w4;
-  case 8:
-    return f32 ? std::span<const char>(f32_w8) : f64_w8;
-  case 16:
-    return f32 ? std::span<const char>(f32_w16) : f64_w16;
-  case 32:
-    return f32 ? std::span<const char>(f32_w32) : f64_w32;
-  default:
-    return {};
-  }
-}
+constexpr Blobs blobs = {{f32_w1, f32_w4, f32_w8, f32_w16, f32_w32}, {f64_w1, f64_w4, f64_w8, f64_w16, f64_w32}};
 } // namespace derivatives
 
 } // namespace
 
 std::span<const char> library_bitcode(Precision precision, unsigned width) {
-  return exports::bitcode(precision, width);
+  return find(exports::blobs, precision, width);
 }
 std::span<const char> derivative_bitcode(Precision precision, unsigned width) {
-  return derivatives::bitcode(precision, width);
+  return find(derivatives::blobs, precision, width);
 }
 
 } // namespace moonshade

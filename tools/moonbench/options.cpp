@@ -1,9 +1,8 @@
 // The command line of moonbench: docs/tools.md is its contract.
 #include "tools/moonbench/options.h"
 
+#include "tools/support/arguments.h"
 #include "tools/support/exit_status.h"
-
-#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <filesystem>
@@ -85,18 +84,7 @@ ParsedOptions parse_options(int argc, char** argv) {
   app.set_help_flag("-h,--help", "Print this help")->group("Reports");
   app.set_version_flag("--version", version(), "Print the version")->group("Reports");
   app.footer(kNotes);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::CallForHelp&) {
-    std::cout << app.help();
-    return {std::nullopt, kDone};
-  } catch (const CLI::CallForVersion& call) {
-    std::cout << call.what() << "\n";
-    return {std::nullopt, kDone};
-  } catch (const CLI::ParseError& error) {
-    std::cerr << "moonbench: error: " << error.what() << "\nTry 'moonbench --help'.\n";
-    return {std::nullopt, kCallAtFault};
-  }
+  if (const auto status = parse_arguments(app, argc, argv, "moonbench")) return {std::nullopt, *status};
   options.precision = precision == "f64" ? Precision::F64 : Precision::F32;
   options.width = width == "auto" ? 0 : unsigned(std::stoul(width));
   if (options.files.empty()) options.files = gallery();

@@ -1,9 +1,8 @@
 // The command line of shaderc: docs/tools.md is its contract.
 #include "tools/shaderc/options.h"
 
+#include "tools/support/arguments.h"
 #include "tools/support/exit_status.h"
-
-#include <CLI/CLI.hpp>
 
 #include <cctype>
 #include <cstdlib>
@@ -207,18 +206,7 @@ ParsedOptions parse_options(int argc, char** argv) {
   app.set_help_flag("-h,--help", "Print this help")->group("Reports");
   app.set_version_flag("--version", version(), "Print the version")->group("Reports");
   app.footer(kExamples);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::CallForHelp&) {
-    std::cout << app.help();
-    return {std::nullopt, kDone};
-  } catch (const CLI::CallForVersion& call) {
-    std::cout << call.what() << "\n";
-    return {std::nullopt, kDone};
-  } catch (const CLI::ParseError& error) {
-    std::cerr << "shaderc: error: " << error.what() << "\nTry 'shaderc --help'.\n";
-    return {std::nullopt, kCallAtFault};
-  }
+  if (const auto status = parse_arguments(app, argc, argv, "shaderc")) return {std::nullopt, *status};
   if (const std::string name = unavailable(app, raw); !name.empty())
     return {std::nullopt, call_error(name + " is not available yet")};
   settle(options, raw);

@@ -1,0 +1,26 @@
+// Help and version are standard output, errors of the call standard error.
+#include "tools/support/arguments.h"
+
+#include "tools/support/exit_status.h"
+
+#include <iostream>
+
+namespace moonshade::tools {
+
+std::optional<int> parse_arguments(CLI::App& app, int argc, char** argv, const char* program) {
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    std::cout << app.help();
+    return kDone;
+  } catch (const CLI::CallForVersion& call) {
+    std::cout << call.what() << "\n";
+    return kDone;
+  } catch (const CLI::ParseError& error) {
+    std::cerr << program << ": error: " << error.what() << "\nTry '" << program << " --help'.\n";
+    return kCallAtFault;
+  }
+  return std::nullopt;
+}
+
+} // namespace moonshade::tools
