@@ -44,11 +44,15 @@ std::string ImageFile::format_of(const std::string& path) {
   return "";
 }
 
-std::string ImageFile::open(const std::string& path) {
-  format_ = format_of(path);
-  if (format_.empty()) return path + ": the ending is none of png, exr, jpg, tif, hdr";
+std::string ImageFile::open(const std::string& name) {
+  format_ = format_of(name);
+  if (format_.empty()) return name + ": the ending is none of png, exr, jpg, tif, hdr";
   std::error_code error;
+  std::string path = name;
+  if (fs::is_symlink(name, error)) // the link stays, what it names is replaced
+    if (fs::path target = fs::weakly_canonical(name, error); !error) path = target.string();
   if (fs::is_directory(path, error)) return path + ": is a folder";
+  if (fs::exists(path, error) && !fs::is_regular_file(path, error)) return path + ": is no regular file";
   if (fs::exists(path, error) && ::access(path.c_str(), W_OK) != 0) return path + ": " + std::strerror(errno);
   std::string pattern = path + ".XXXXXX." + format_;
   int file = ::mkstemps(pattern.data(), int(format_.size() + 1));

@@ -13,6 +13,8 @@
 
 namespace moonshade::moonrender {
 
+static std::string error_text() { return std::strerror(errno ? errno : EIO); }
+
 static uint64_t peak_memory_bytes() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
@@ -48,15 +50,20 @@ std::string write_stats(const Options& options, const renderer::PreparedScene& s
   json["interrupted"] = result.interrupted;
   json["backend"] = options.shaders.backend == renderer::Backend::Jit ? "jit" : "interp";
   std::string text = json.dump(2) + "\n";
-  if (options.stats == "-") return std::cout << text << std::flush, "";
+  if (options.stats == "-") return std::cout << text << std::flush ? "" : "standard output: " + error_text();
+  std::error_code error;
+  if (std::filesystem::exists(options.stats, error) && !std::filesystem::is_regular_file(options.stats, error)) {
+    std::ofstream device(options.stats, std::ios::binary); // not to be replaced by a file
+    return device << text << std::flush ? "" : options.stats + ": " + error_text();
+  }
   std::string temporary = options.stats + ".tmp" + std::to_string(::getpid());
   std::ofstream file(temporary, std::ios::binary);
   file << text;
   file.close();
   if (!file || std::rename(temporary.c_str(), options.stats.c_str()) != 0) {
-    std::string error = options.stats + ": " + std::strerror(errno);
+    std::string message = options.stats + ": " + error_text();
     ::unlink(temporary.c_str());
-    return error;
+    return message;
   }
   return "";
 }
