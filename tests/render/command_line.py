@@ -18,7 +18,7 @@ def check(condition, what):
 
 
 def run(*args, status=0, error="", output=None):
-    done = subprocess.run([moonrender, *args], capture_output=True, text=True, timeout=120)
+    done = subprocess.run([moonrender, *args], capture_output=True, text=True, timeout=600)
     call = " ".join(args)
     check(done.returncode == status, f"{call}: exit {done.returncode}, expected {status}\n{done.stderr}")
     check(error in done.stderr, f"{call}: no '{error}' in: {done.stderr}")
@@ -140,7 +140,7 @@ with tempfile.TemporaryDirectory() as folder:
         message = process.stderr.readline()
     check("/16000000 samples" in message, f"progress: {message}")
     process.send_signal(signal.SIGINT)
-    message = process.communicate(timeout=120)[1]
+    message = process.communicate(timeout=600)[1]
     check(process.returncode == 130, f"interrupted: exit {process.returncode}")
     check("interrupted; the image has" in message, f"interrupted: {message}")
     check(b"interrupted" in bytes_of(image), "the metadata do not say interrupted")
