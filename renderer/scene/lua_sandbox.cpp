@@ -4,6 +4,7 @@
 #include "renderer/scene/nearest_name.h"
 
 #include <cstdlib>
+#include <ctime>
 #include <lua.hpp>
 
 namespace moonshade::renderer {
@@ -14,7 +15,16 @@ struct Budget {
   size_t used = 0, limit = 0;
   uint64_t instructions_left = 0;
   size_t calls_left = 0;
+  double end = 0; ///< in seconds of this thread
+  uint32_t entered = 0;
 };
+
+/// Processor time of this thread.
+double thread_seconds() {
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return double(time.tv_sec) + double(time.tv_nsec) * 1e-9;
+}
 
 void* allocate(void* user, void* block, size_t old_size, size_t new_size) {
   Budget& budget = *static_cast<Budget*>(user);
@@ -38,15 +48,29 @@ Budget& budget_of(lua_State* L) {
   return *static_cast<Budget*>(user);
 }
 
-void count_instructions(lua_State* L, lua_Debug*) {
+constexpr uint32_t kEnteredInterval = 16;
+
+[[noreturn]] void end_run(lua_State* L, int level, const char* limit) {
+  luaL_where(L, level);
+  lua_pushfstring(L, "the scene runs too long (%s limit)", limit);
+  lua_concat(L, 2);
+  lua_error(L);
+  std::abort();
+}
+
+/// Every so many instructions and calls. (One call of the library counts as one instruction, however long it takes:
+/// that is what the clock is for.)
+void watch(lua_State* L, lua_Debug* event) {
   Budget& budget = budget_of(L);
-  if (budget.instructions_left < kHookInterval) {
-    luaL_where(L, 0); // the function that runs, not the one that called it
-    lua_pushliteral(L, "the scene runs too long (instruction limit)");
-    lua_concat(L, 2);
-    lua_error(L);
+  const bool is_call = event->event != LUA_HOOKCOUNT;
+  const int level = is_call ? 1 : 0; // what runs, not what it calls
+  if (!is_call) {
+    if (budget.instructions_left < kHookInterval) end_run(L, level, "instruction");
+    budget.instructions_left -= kHookInterval;
+  } else if (++budget.entered % kEnteredInterval != 0) {
+    return;
   }
-  budget.instructions_left -= kHookInterval;
+  if (thread_seconds() > budget.end) end_run(L, level, "time");
 }
 
 const char kCalls = 0;   // registry key: list of recorded calls
@@ -229,6 +253,7 @@ public:
 
 private:
   bool value(SceneValue& out, int depth) {
+    if (values_left_-- == 0) return false; // tables that stand in many places are many values
     switch (lua_type(L_, -1)) {
     case LUA_TNIL:
       return true;
@@ -269,6 +294,7 @@ private:
     return true;
   }
   lua_State* L_;
+  size_t values_left_ = 5'000'000;
 };
 
 std::string error_text(lua_State* L, std::span<const std::string_view> functions) {
@@ -286,7 +312,7 @@ std::string error_text(lua_State* L, std::span<const std::string_view> functions
 SandboxRun run_scene_file(const std::string& name, std::string_view text, std::span<const std::string_view> functions,
                           const std::map<std::string, double>& constants, const SandboxLimits& limits) {
   SandboxRun run;
-  Budget budget{0, limits.memory_bytes, limits.instructions, limits.calls};
+  Budget budget{0, limits.memory_bytes, limits.instructions, limits.calls, thread_seconds() + limits.seconds, 0};
   lua_State* L = lua_newstate(allocate, &budget);
   if (!L) return run.error = name + ": not enough memory", run;
   SetUp facts{functions, &constants};
@@ -294,7 +320,7 @@ SandboxRun run_scene_file(const std::string& name, std::string_view text, std::s
   lua_pushlightuserdata(L, &facts);
   std::string chunk_name = "@" + name;
   bool ok = lua_pcall(L, 1, 0, 0) == LUA_OK;
-  lua_sethook(L, count_instructions, LUA_MASKCOUNT, kHookInterval);
+  lua_sethook(L, watch, LUA_MASKCOUNT | LUA_MASKCALL, kHookInterval);
   ok = ok && luaL_loadbufferx(L, text.data(), text.size(), chunk_name.c_str(), "t") == LUA_OK;
   ok = ok && lua_pcall(L, 0, 0, 0) == LUA_OK;
   lua_sethook(L, nullptr, 0, 0);
@@ -321,7 +347,7 @@ SandboxRun run_scene_file(const std::string& name, std::string_view text, std::s
       lua_rawgeti(L, 2, 3);
       if (!exporter.table(call.fields, call.items, 0))
         run.error = name + ":" + std::to_string(call.line) + ": " + std::string(functions[call.function]) +
-                    ": holds a function, a table nested too deeply, or a table with both names and places";
+                    ": holds a function, a table nested too deeply, a table with both names and places, or too much";
       run.calls.push_back(std::move(call));
     }
   }

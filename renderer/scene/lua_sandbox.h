@@ -1,4 +1,4 @@
-// Runs a scene file in stock Lua 5.4 with bounds on memory and instructions, and without io, os, debug, package,
+// Runs a scene file in stock Lua 5.4 with bounds on memory, instructions and time, and without io, os, debug, package,
 // coroutine, load, metatables or pattern matching (whose time nothing bounds). A scene describes by calling functions
 // with one table each; the sandbox only records these calls, so that no C++ frame is ever left by a Lua error.
 #pragma once
@@ -35,6 +35,7 @@ struct SceneCall {
 struct SandboxLimits {
   size_t memory_bytes = size_t(256) << 20;
   uint64_t instructions = 200'000'000;
+  double seconds = 4; ///< of processor time; only calls that take long for one instruction come near it
   size_t calls = 1'000'000;
 };
 

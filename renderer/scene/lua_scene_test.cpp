@@ -118,6 +118,15 @@ TEST_F(LuaScene, EndsEndlessAndHungryScenes) {
   EXPECT_THAT(error("while true do end"), HasSubstr("s.lua:1: the scene runs too long"));
   EXPECT_THAT(error("local t = {} for i = 1, 1e9 do t[i] = i end"), HasSubstr("not enough memory"));
   EXPECT_THAT(error("local s = ('x'):rep(1e9)"), HasSubstr("not enough memory"));
+  limits.seconds = 0.05;
+  for (const char* loop : {"local s = ('x'):rep(500000)", "table.sort(t)", "table.insert(t, 1, i)"})
+    EXPECT_THAT(error(("local t = {} for i = 1, 50000 do t[i] = i % 7 end\nwhile true do\nlocal i = 1 " +
+                       std::string(loop) + " end")
+                          .c_str()),
+                HasSubstr("s.lua:3: the scene runs too long (time limit)"))
+        << loop;
+  limits.seconds = 4;
+  EXPECT_THAT(error("local t = {1} for i = 1, 14 do t = {t, t, t, t} end sphere{ x = t }"), HasSubstr("too much"));
   limits.memory_bytes = 256 << 20;
   limits.instructions = 100'000'000;
   EXPECT_THAT(error("local function f() return f() + 1 end f()"), HasSubstr("s.lua:1: stack overflow"));

@@ -223,6 +223,52 @@ std::string wide_function(size_t count) {
   return "local function f(" + names + ") return a0 end\nfunction height(p) return f(" + values + ") end";
 }
 
+/// A fault at the bottom of doubled calls, which each caller might find again.
+std::string doubling_errors(size_t depth) {
+  return "local function f0(x) return x and 1 end\n" +
+         lines(depth,
+               [](size_t i) {
+                 const std::string below = name("f", i);
+                 return "local function " + name("f", i + 1) + "(x) return " + below + "(x) + " + below +
+                        "(vec3(x)) end";
+               }) +
+         "function height(p) return " + name("f", depth) + "(p.x) end";
+}
+/// Each level loops until the type of its variable, given by the level below, is known.
+std::string doubling_rounds(size_t depth) {
+  return "local function f0(x) return x * 0.5 end\n" +
+         lines(depth,
+               [](size_t i) {
+                 const std::string below = name("f", i);
+                 return "local function " + name("f", i + 1) + "(x) local v = 1 for i = 1, 2 do v = " + below +
+                        "(v) + " + below + "(x) end return v end";
+               }) +
+         "function height(p) return " + name("f", depth) + "(1) end";
+}
+/// Every call of a chain of a hundred has errors, each with the chain as its notes.
+std::string errors_in_chains(size_t depth, size_t errors) {
+  return "local function f0(x) return x.nothing end\n" +
+         lines(depth,
+               [errors](size_t i) {
+                 return "local function " + name("f", i + 1) + "(x) " + repeat("x.y = 1 ", errors) + "return " +
+                        name("f", i) + "(x) + x.nothing end";
+               }) +
+         "function height(p) return " + name("f", depth) + "(p) end";
+}
+std::string multiple_assignments(size_t count, size_t targets) {
+  std::string names, calls;
+  for (size_t i = 0; i < targets; ++i) {
+    names += (i ? "," : "") + name("a", i);
+    calls += (i ? ",f(" : "f(") + name("a", i) + ")";
+  }
+  return "function height(p)\nlocal function f(x) return x * 0.5 end\nlocal " + names + " = p.x" +
+         repeat(",p.x", targets - 1) + "\n" + repeat(names + " = " + calls + "\n", count) + "return a0 end";
+}
+std::string logical_chain(size_t count) {
+  return "function height(p)\nlocal b = p.x > 0\n" +
+         repeat("b = b" + repeat(" and p.x > 1 or p.y < 2", 400) + "\n", count) + "return b and 1 or 0 end";
+}
+
 // ---- specialisations
 
 const char* argument(size_t digit) {
@@ -364,6 +410,11 @@ std::vector<HostileProgram> hostile_programs() {
       {"DoublingCalls20", [] { return doubling_calls(20); }},
       {"DoublingCalls60", [] { return doubling_calls(60); }},
       {"DoublingNoise60", [] { return doubling_noise(60); }},
+      {"DoublingErrors60", [] { return doubling_errors(60); }},
+      {"DoublingRounds60", [] { return doubling_rounds(60); }},
+      {"ErrorsInChains100x100", [] { return errors_in_chains(100, 100); }},
+      {"MultipleAssignments300x150", [] { return multiple_assignments(300, 150); }},
+      {"LogicalChain100x400", [] { return logical_chain(100); }},
       {"ChainOfFunctions190", [] { return chain_of_functions(190); }},
       {"ChainOfFunctions15000", [] { return chain_of_functions(15'000); }},
       {"Closures1000", [] { return closures(1000); }},

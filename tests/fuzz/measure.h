@@ -1,0 +1,53 @@
+// Time and memory of one call, printed, and asserted to be within what only growth without bound exceeds.
+#pragma once
+
+#include <chrono>
+#include <cstdio>
+#include <gtest/gtest.h>
+#include <string>
+#include <sys/resource.h>
+#include <unistd.h>
+
+namespace moonshade::fuzz {
+
+inline constexpr double kMaxSeconds = 20;
+inline constexpr long kMaxKilobytes = 2L << 20; // 2 GiB, of the whole process
+inline constexpr unsigned kHangSeconds = 100;
+
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+inline constexpr bool kIsSanitized = true;
+#else
+inline constexpr bool kIsSanitized = false;
+#endif
+
+/// Runs from its construction on; a hang ends the program, and with it the test.
+class Measure {
+public:
+  Measure() { alarm(kHangSeconds); }
+  ~Measure() { alarm(0); }
+  Measure(const Measure&) = delete;
+  Measure& operator=(const Measure&) = delete;
+
+  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+  /// The greatest of the process so far.
+  static long kilobytes() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return usage.ru_maxrss;
+  }
+
+private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+inline void expect_bounded(const Measure& measure, size_t input_bytes, const std::string& verdict) {
+  const double seconds = measure.seconds();
+  const std::string name = testing::UnitTest::GetInstance()->current_test_info()->name();
+  std::printf("%-28s %8zu bytes %8.3f s %6ld MB  %s\n", name.substr(name.rfind('/') + 1).c_str(), input_bytes, seconds,
+              Measure::kilobytes() >> 10, verdict.c_str());
+  if (kIsSanitized) return;
+  EXPECT_LT(seconds, kMaxSeconds);
+  EXPECT_LT(Measure::kilobytes(), kMaxKilobytes);
+}
+
+} // namespace moonshade::fuzz
