@@ -66,7 +66,7 @@ llvm::Function* ModuleEmitter::library_function(const LibraryFunction& row, bool
 }
 
 /// One call of a library function; on one lane where nothing varies.
-std::vector<Lanes> FunctionEmitter::library_call(const LibraryFunction& row, std::vector<Lanes> arguments) {
+std::vector<Lanes> FunctionEmitter::library_call(const LibraryFunction& row, const std::vector<Lanes>& arguments) {
   bool varying = false;
   for (const Lanes& argument : arguments)
     varying |= argument.varying();
@@ -88,14 +88,14 @@ std::vector<Lanes> FunctionEmitter::call_library(const ir::Instruction& instruct
   std::vector<Lanes> arguments;
   for (const ir::ValueId operand : instruction.operands)
     arguments.push_back(value(operand));
-  if (!row.componentwise || !is_vector(instruction.type)) return library_call(row, std::move(arguments));
+  if (!row.componentwise || !is_vector(instruction.type)) return library_call(row, arguments);
   // By component: a number beside a vector counts for each.
   Lanes result;
   for (unsigned c = 0; c < component_count(instruction.type); ++c) {
     std::vector<Lanes> components;
     for (const Lanes& argument : arguments)
       components.push_back({{argument.parts[argument.parts.size() == 1 ? 0 : c]}});
-    result.parts.push_back(library_call(row, std::move(components))[0].parts[0]);
+    result.parts.push_back(library_call(row, components)[0].parts[0]);
   }
   return {result};
 }

@@ -173,7 +173,7 @@ private:
 
   // emit_calls.cpp
   std::vector<Lanes> call_library(const ir::Instruction& instruction);
-  std::vector<Lanes> library_call(const LibraryFunction& row, std::vector<Lanes> arguments);
+  std::vector<Lanes> library_call(const LibraryFunction& row, const std::vector<Lanes>& arguments);
   std::vector<Lanes> call(ir::ValueId id, const ir::Instruction& instruction);
   std::vector<Lanes> call_outlined(ir::FunctionId callee, const ir::Signature& signature,
                                    const std::vector<Lanes>& arguments, const std::vector<Slot>& captures);
