@@ -307,6 +307,35 @@ std::string library_calls(size_t count, std::string_view call) {
   return "function height(p)\nlocal x = p.x\n" + repeat("x = x + " + std::string(call) + "\n", count) + "return x end";
 }
 
+// ---- derivatives
+
+std::string gradient_of_calls(size_t count, std::string_view call) {
+  return "local function f(p)\nlocal x = p.x\n" + repeat("x = x + " + std::string(call) + "\n", count) +
+         "return x end\nfunction height(p) return gradient(f, p).x end";
+}
+std::string gradient_of_doubling(size_t depth) {
+  return "local function f0(p) return noise(p) end\n" +
+         lines(depth,
+               [](size_t i) {
+                 const std::string below = name("f", i);
+                 return "local function " + name("f", i + 1) + "(p) return " + below + "(p) + " + below + "(p * 2) end";
+               }) +
+         "function height(p) return gradient(" + name("f", depth) + ", p).x end";
+}
+/// Each takes the gradient of the one below, were that allowed.
+std::string nested_gradients(size_t depth) {
+  return "local function f0(p) return noise(p) end\n" +
+         lines(depth,
+               [](size_t i) {
+                 return "local function " + name("f", i + 1) + "(p) return gradient(" + name("f", i) + ", p).x end";
+               }) +
+         "function height(p) return " + name("f", depth) + "(p) end";
+}
+std::string many_gradients(size_t count) {
+  return "local function f(p) return noise(p) end\nfunction height(p)\nlocal x = p.x\n" +
+         repeat("x = x + gradient(f, p * x).y\n", count) + "return x end";
+}
+
 // ---- constants, names, errors
 
 std::string constant_table(size_t count) {
@@ -440,6 +469,12 @@ std::vector<HostileProgram> hostile_programs() {
       {"Turbulence5000", [] { return library_calls(5000, "turbulence(p * x, 5)"); }},
       {"Pow20000", [] { return library_calls(20'000, "x ^ p.y"); }},
       {"MathSin20000", [] { return library_calls(20'000, "math.sin(x)"); }},
+      {"GradientOfStatements5000", [] { return gradient_of_calls(5000, "x * p.y"); }},
+      {"GradientOfNoise2000", [] { return gradient_of_calls(2000, "noise(p * x)"); }},
+      {"GradientOfDoubling60", [] { return gradient_of_doubling(60); }},
+      {"NestedGradients60", [] { return nested_gradients(60); }},
+      {"ManyGradients1000", [] { return many_gradients(1000); }},
+      {"ManyGradients20000", [] { return many_gradients(20'000); }},
       {"ConstantTable100000", [] { return constant_table(100'000); }},
       {"NamedTable30000", [] { return named_table(30'000); }},
       {"String1000000", [] { return long_string(1'000'000); }},
