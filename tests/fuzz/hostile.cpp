@@ -81,7 +81,7 @@ std::string long_sum(size_t terms) { return "function height(p) return p.x" + re
 std::string balanced_sum(size_t depth) {
   std::string sum = "p.x";
   for (size_t i = 0; i < depth; ++i)
-    sum = "(" + sum + "+" + sum + ")";
+    sum = (std::string("(").append(sum) + "+").append(sum) + ")";
   return "function height(p) return " + sum + " end";
 }
 std::string long_conditional(size_t arms) {

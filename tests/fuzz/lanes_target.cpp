@@ -3,9 +3,10 @@
 #include "runtime/frontend.h"
 #include "tests/fuzz/target.h"
 
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
-#include <cstring>
 #include <limits>
 
 namespace moonshade {
@@ -67,18 +68,17 @@ Results run(const Shader& shader, size_t entry) {
   for (ValueType type : info.results)
     for (Column& column : columns_of(type))
       results.columns.push_back(column);
-  std::vector<const void*> input_pointers;
-  std::vector<void*> output_pointers;
-  for (Column& column : inputs)
-    input_pointers.push_back(column.data(shader.precision()));
-  for (Column& column : results.columns)
-    output_pointers.push_back(column.data(shader.precision()));
+  const auto data = [&](Column& column) { return column.data(shader.precision()); };
+  std::vector<const void*> input_pointers(inputs.size());
+  std::vector<void*> output_pointers(results.columns.size());
+  std::ranges::transform(inputs, input_pointers.begin(), data);
+  std::ranges::transform(results.columns, output_pointers.begin(), data);
   shader.run(entry, {kPoints, input_pointers.data(), output_pointers.data(), &results.report, results.faults.data()});
   return results;
 }
 
-template <class F> bool same_bits(F a, F b) {
-  return (std::isnan(a) && std::isnan(b)) || std::memcmp(&a, &b, sizeof a) == 0;
+bool same_bits(double a, double b) {
+  return (std::isnan(a) && std::isnan(b)) || std::bit_cast<uint64_t>(a) == std::bit_cast<uint64_t>(b);
 }
 
 void check_same(const Results& a, const Results& b, const std::string& entry) {

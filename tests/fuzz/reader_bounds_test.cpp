@@ -28,41 +28,40 @@ void expect_scene(const std::string& text) {
   expect_bounded(measure, text.size(), reading.scene ? "a scene" : reading.error.substr(0, 100));
 }
 
-template <class Point> std::string polygon(size_t corners, const Point& point) {
+std::string point_on_circle(double radius, double angle) {
+  return "v " + std::to_string(radius * std::cos(angle)) + " " + std::to_string(radius * std::sin(angle)) + " 0\n";
+}
+
+template <class Point> std::string polygon(int corners, const Point& point) {
   std::string text, face = "f";
-  for (size_t i = 0; i < corners; ++i) {
-    const auto [x, y] = point(i);
-    text += "v " + std::to_string(x) + " " + std::to_string(y) + " 0\n";
+  for (int i = 0; i < corners; ++i) {
+    text += point(i);
     face += " " + std::to_string(i + 1);
   }
   return text + face + "\n";
 }
 
 TEST(ReaderBounds, APolygonOfManyCorners) {
-  expect_obj(polygon(30'000, [](size_t i) { return std::pair(std::cos(i * 2e-4), std::sin(i * 2e-4)); }));
+  expect_obj(polygon(30'000, [](int i) { return point_on_circle(1, i * 2e-4); }));
 }
 
 TEST(ReaderBounds, AStarOfManyCorners) {
-  expect_obj(polygon(30'000, [](size_t i) {
-    const double radius = i % 2 ? 1.0 : 0.5;
-    return std::pair(radius * std::cos(i * 2e-4), radius * std::sin(i * 2e-4));
-  }));
+  expect_obj(polygon(30'000, [](int i) { return point_on_circle(i % 2 != 0 ? 1.0 : 0.5, i * 2e-4); }));
 }
 
 TEST(ReaderBounds, ASpiralOfManyCorners) {
-  expect_obj(polygon(20'000, [](size_t i) {
+  expect_obj(polygon(20'000, [](int i) {
     const bool is_outer = i < 10'000;
-    const double turn = static_cast<double>(is_outer ? i : 20'000 - i) * 0.01;
-    const double radius = 1 + turn + (is_outer ? 2.0 : 0.0);
-    return std::pair(radius * std::cos(turn), radius * std::sin(turn));
+    const double turn = (is_outer ? i : 20'000 - i) * 0.01;
+    return point_on_circle(1 + turn + (is_outer ? 2.0 : 0.0), turn);
   }));
 }
 
 TEST(ReaderBounds, AFanAroundOneVertex) {
   std::string text = "v 0 0 1\n";
-  for (size_t i = 0; i < 20'000; ++i)
-    text += "v " + std::to_string(std::cos(i * 3e-4)) + " " + std::to_string(std::sin(i * 3e-4)) + " 0\n";
-  for (size_t i = 2; i < 20'000; ++i)
+  for (int i = 0; i < 20'000; ++i)
+    text += point_on_circle(1, i * 3e-4);
+  for (int i = 2; i < 20'000; ++i)
     text += "f 1 " + std::to_string(i) + " " + std::to_string(i + 1) + "\n";
   expect_obj(text);
 }
