@@ -10,6 +10,7 @@ class CameraRays {
 public:
   CameraRays(const Camera& camera, int width, int height) : origin_(camera.from) {
     Vec3 forward = glm::normalize(camera.to - camera.from);
+    forward_ = forward;
     Vec3 right = glm::normalize(glm::cross(forward, camera.up));
     Vec3 up = glm::cross(right, forward);
     float half = std::tan(0.5f * camera.fov * kPi / 180);
@@ -25,8 +26,11 @@ public:
   /// Width of a pixel's footprint per unit of distance.
   float spread() const { return pixel_; }
 
+  /// Of a point, along the camera's axis.
+  float depth(const Vec3& point) const { return glm::dot(point - origin_, forward_); }
+
 private:
-  Vec3 origin_, corner_{0}, across_{0}, down_{0};
+  Vec3 origin_, forward_{0}, corner_{0}, across_{0}, down_{0};
   float pixel_ = 0;
 };
 

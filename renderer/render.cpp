@@ -1,6 +1,7 @@
 // The order of pixels (small blocks, so that neighbouring rays stay together), passes, tasks, threads.
 #include "renderer/render.h"
 
+#include "renderer/film/adaptive.h"
 #include "renderer/geometry/float_environment.h"
 #include "renderer/integrators/wavefront.h"
 
@@ -16,7 +17,7 @@ namespace {
 
 constexpr size_t kBatchPaths = 8192;           // a batch's working set stays within a core's own cache
 constexpr size_t kPassPaths = size_t(1) << 20; // a pass buffer of some 12 MB
-constexpr int kBlock = 16;                     // pixels
+constexpr int kBlock = Adaptive::kBlock;       // pixels
 
 /// All pixels of the crop, block by block.
 std::vector<uint32_t> pixel_order(const Crop& crop, int width) {
@@ -35,37 +36,95 @@ size_t concurrency_for(unsigned threads) {
   return std::max<size_t>(now, threads);
 }
 
-class Render {
+class Render : public RenderState {
 public:
   Render(const PreparedScene& scene, const RenderOptions& options, RenderProgress& progress)
       : scene_(scene), settings_(scene.scene.settings), options_(options), progress_(progress),
         crop_(options.crop.value_or(Crop{0, 0, settings_.width, settings_.height})),
-        order_(pixel_order(crop_, settings_.width)), film_(crop_.width, crop_.height),
+        order_(pixel_order(crop_, settings_.width)),
+        film_(std::make_unique<Film>(crop_.width, crop_.height, contents(options))),
+        adaptive_(crop_.width, crop_.height, options.noise),
         concurrency_(tbb::global_control::max_allowed_parallelism, concurrency_for(options.threads)),
         arena_(options.threads ? int(options.threads) : tbb::task_arena::automatic),
         start_(std::chrono::steady_clock::now()) {
     pass_samples_ = uint32_t(std::clamp<size_t>(kPassPaths / order_.size(), 1, 8));
     workers_.resize(size_t(arena_.max_concurrency()));
     radiance_.resize(order_.size() * pass_samples_);
+    faulted_.resize(radiance_.size());
+    if (film_->contents().first) first_.resize(radiance_.size());
   }
 
   RenderResult run() {
-    progress_.paths_total = uint64_t(order_.size()) * settings_.samples;
-    while (film_.samples() < settings_.samples) {
-      uint32_t samples = std::min(pass_samples_, settings_.samples - film_.samples());
-      if (!pass(film_.samples(), samples)) break;
+    if (options_.resume) {
+      exchange(*options_.resume);
+      if (!options_.resume->ok()) return {};
+      choose_pixels();
+    }
+    progress_.paths_resumed = totals_.paths;
+    show_progress();
+    while (!finished()) {
+      uint32_t samples = std::min(pass_samples_, settings_.samples - film_->samples());
+      if (options_.noise > 0) samples = std::min(samples, Adaptive::to_next_decision(film_->samples()));
+      if (!pass(film_->samples(), samples)) break;
       add_to_film(samples);
-      progress_.samples_done = film_.samples();
-      if (time_is_up()) break;
+      collect();
+      if (options_.noise > 0 && Adaptive::is_decision(film_->samples())) {
+        adaptive_.decide(*film_);
+        choose_pixels();
+      }
+      show_progress();
+      if (options_.after_pass) options_.after_pass(*this);
+      if (progress_.cancel || time_is_up()) break;
     }
     return result();
   }
 
+  Picture picture() const override { return film_->picture(); }
+  uint32_t samples() const override { return film_->samples(); }
+  double seconds() const override { return earlier_seconds_ + elapsed(); }
+
+  void exchange(Archive& archive) override {
+    archive.expect<uint32_t>(uint32_t(crop_.width));
+    archive.expect<uint32_t>(uint32_t(crop_.height));
+    uint32_t samples = film_->samples();
+    archive.value(samples);
+    film_->set_samples(samples);
+    for (auto [data, size] : film_->blocks())
+      archive.bytes(data, size);
+    adaptive_.exchange(archive);
+    double spent = seconds();
+    archive.value(spent);
+    if (archive.reading()) earlier_seconds_ = spent;
+    exchange_totals(archive);
+  }
+
 private:
+  static FilmContents contents(const RenderOptions& options) {
+    FilmContents contents = options.contents;
+    contents.squares |= options.noise > 0;
+    return contents;
+  }
   double elapsed() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
   bool time_is_up() const { return options_.seconds > 0 && elapsed() >= options_.seconds; }
   /// The first pass is finished whatever the time.
-  bool should_stop() const { return progress_.cancel || (film_.samples() > 0 && time_is_up()); }
+  bool should_stop() const { return progress_.cancel || (film_->samples() > 0 && time_is_up()); }
+  bool finished() const { return film_->samples() >= settings_.samples || order_.empty(); }
+
+  /// Only those whose blocks go on.
+  void choose_pixels() {
+    if (options_.noise <= 0) return;
+    std::erase_if(order_, [&](uint32_t pixel) {
+      return !adaptive_.active(int(pixel % uint32_t(settings_.width)) - crop_.x,
+                               int(pixel / uint32_t(settings_.width)) - crop_.y);
+    });
+  }
+
+  void show_progress() {
+    progress_.samples_done = film_->samples();
+    progress_.rays_done = totals_.rays;
+    progress_.paths_done = totals_.paths;
+    progress_.paths_total = totals_.paths + uint64_t(order_.size()) * (settings_.samples - film_->samples());
+  }
 
   /// One pass into `radiance_`; false where it was given up.
   bool pass(uint32_t first_sample, uint32_t samples) {
@@ -80,9 +139,9 @@ private:
       DefaultFloatEnvironment environment;
       auto& worker = workers_[size_t(tbb::this_task_arena::current_thread_index())];
       if (!worker) worker = std::make_unique<Wavefront>(scene_, kBatchPaths);
-      size_t begin = index * chunk, end = std::min(begin + chunk, order_.size());
+      size_t begin = index * chunk, end = std::min(begin + chunk, order_.size()), at = begin * samples;
       worker->run({std::span(order_).subspan(begin, end - begin), first_sample, samples},
-                  radiance_.data() + begin * samples);
+                  {radiance_.data() + at, faulted_.data() + at, first_.empty() ? nullptr : first_.data() + at});
       progress_.paths_done += (end - begin) * samples;
     };
     arena_.execute([&] {
@@ -99,32 +158,60 @@ private:
 
   void add_to_film(uint32_t samples) {
     auto start = std::chrono::steady_clock::now();
+    SampleOutputs outputs{radiance_.data(), faulted_.data(), first_.data()};
     for (size_t k = 0; k < order_.size(); ++k) {
       uint32_t x = order_[k] % uint32_t(settings_.width) - uint32_t(crop_.x);
       uint32_t y = order_[k] / uint32_t(settings_.width) - uint32_t(crop_.y);
-      film_.add(size_t(y) * size_t(crop_.width) + x, radiance_.data() + k * samples, samples);
+      film_->add(size_t(y) * size_t(crop_.width) + x, outputs, k * samples, samples);
     }
-    film_.finish_pass(samples);
+    film_->finish_pass(samples);
     film_seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  }
+
+  /// What the workers have counted, after a whole pass: that of one given up counts no more than its samples do.
+  void collect() {
+    totals_ = earlier_;
+    totals_.film_seconds += film_seconds_;
+    faults_ = earlier_faults_;
+    for (const auto& worker : workers_) {
+      if (!worker) continue;
+      totals_ += worker->stats();
+      for (const auto& [key, count] : worker->faults())
+        faults_[key] += count;
+    }
+  }
+
+  void exchange_totals(Archive& archive) {
+    archive.value(totals_.paths), archive.value(totals_.rays), archive.value(totals_.shading_points);
+    archive.value(totals_.trace_seconds), archive.value(totals_.shade_seconds);
+    archive.value(totals_.shader_seconds), archive.value(totals_.film_seconds);
+    std::vector<std::pair<FaultKey, uint64_t>> faults(faults_.begin(), faults_.end());
+    uint32_t count = uint32_t(faults.size());
+    archive.value(count);
+    for (uint32_t k = 0; k < count && archive.ok(); ++k) {
+      if (archive.reading()) faults.emplace_back();
+      auto& [key, points] = faults[k];
+      archive.text(key.file), archive.text(key.entry), archive.text(key.message);
+      archive.value(key.code), archive.value(key.line), archive.value(points);
+    }
+    if (!archive.reading()) return;
+    earlier_ = totals_;
+    faults_ = earlier_faults_ = FaultLog(faults.begin(), faults.end());
   }
 
   RenderResult result() {
     RenderResult r;
-    r.picture = film_.picture();
-    r.samples = film_.samples();
-    r.interrupted = progress_.cancel && film_.samples() < settings_.samples;
+    r.picture = film_->picture();
+    r.samples = film_->samples();
+    r.mean_samples = film_->mean_samples();
+    r.interrupted = progress_.cancel && !finished();
     r.threads = unsigned(workers_.size());
-    r.stats.film_seconds = film_seconds_;
-    for (const auto& worker : workers_) {
-      if (!worker) continue;
-      const WorkerStats& w = worker->stats();
-      r.stats.paths += w.paths, r.stats.rays += w.rays, r.stats.shading_points += w.shading_points;
-      r.stats.trace_seconds += w.trace_seconds, r.stats.shade_seconds += w.shade_seconds;
-      r.stats.shader_seconds += w.shader_seconds, r.stats.film_seconds += w.film_seconds;
-      for (const auto& [key, count] : worker->faults())
-        r.faults[key] += count, r.fault_count += count;
-    }
-    r.seconds = elapsed();
+    r.stats = totals_;
+    r.faults = faults_;
+    for (const auto& [key, count] : faults_)
+      r.fault_count += count;
+    r.seconds = seconds();
+    r.film = std::move(film_);
     return r;
   }
 
@@ -133,15 +220,22 @@ private:
   const RenderOptions& options_;
   RenderProgress& progress_;
   Crop crop_;
-  std::vector<uint32_t> order_;
-  Film film_;
+  std::vector<uint32_t> order_; ///< of the pixels that are sampled
+  std::unique_ptr<Film> film_;
+  Adaptive adaptive_;
   tbb::global_control concurrency_; ///< more threads than cores, where asked for
   tbb::task_arena arena_;
   std::chrono::steady_clock::time_point start_;
   uint32_t pass_samples_ = 1;
   std::vector<std::unique_ptr<Wavefront>> workers_;
-  std::vector<Vec3> radiance_; ///< of the pass in hand, pixel by pixel in `order_`
+  // Of the pass in hand, pixel by pixel in `order_`.
+  std::vector<Vec3> radiance_;
+  std::vector<uint8_t> faulted_;
+  std::vector<FirstHit> first_;
   double film_seconds_ = 0;
+  WorkerStats totals_, earlier_; ///< of all passes; of those before a resumption
+  FaultLog faults_, earlier_faults_;
+  double earlier_seconds_ = 0;
 };
 
 } // namespace

@@ -20,8 +20,10 @@ Wavefront::Wavefront(const PreparedScene& scene, size_t capacity)
   run_start_.resize(scene.materials.size() + 1);
 }
 
-void Wavefront::run(const Task& task, Vec3* radiance) {
+void Wavefront::run(const Task& task, const SampleOutputs& out) {
   last_ = thread_seconds();
+  first_ = out.first;
+  if (first_) std::fill_n(first_, task.pixels.size() * task.samples, FirstHit{});
   generate(task);
   stats_.film_seconds += lap();
   while (!active_.empty()) {
@@ -34,7 +36,7 @@ void Wavefront::run(const Task& task, Vec3* radiance) {
     std::erase_if(active_, [&](uint32_t index) { return !paths_[index].alive; });
     stats_.shade_seconds += lap();
   }
-  deliver(task, radiance);
+  deliver(task, out);
   stats_.film_seconds += lap();
 }
 
@@ -114,6 +116,7 @@ void Wavefront::shade_run(uint32_t index, size_t begin, size_t end) {
     fill_normal(k);
   scene_.materials.shade(material, batch_, begin, end - begin, faults_);
   stats_.shader_seconds += thread_seconds() - shaders_start;
+  if (first_) note_first_hits(index, begin, end);
   if (settings_.integrator == IntegratorKind::Path)
     scatter_path(material, begin, end);
   else
@@ -175,6 +178,7 @@ SurfaceValues Wavefront::values_at(size_t k) const {
 bool Wavefront::end_if_faulted(Path& path, size_t k) {
   if (!batch_.faulted[k]) return false;
   path.alive = false;
+  path.faulted = true;
   if (path.segments == 1) path.radiance = kFaultColor;
   return true;
 }
@@ -210,17 +214,32 @@ void Wavefront::trace_shadows() {
   shadows_.clear();
 }
 
-void Wavefront::deliver(const Task& task, Vec3* radiance) {
+/// What paths see that have just left the camera. Paths are numbered as the task's samples are.
+void Wavefront::note_first_hits(uint32_t material, size_t begin, size_t end) {
+  for (size_t k = begin; k < end; ++k) {
+    if (paths_[path_of_[k]].segments != 1) continue;
+    const SurfacePoint& s = points_[k];
+    SurfaceValues values = values_at(k);
+    Vec3 albedo = values.color * (Vec3(1) - values.reflectance) + values.reflectance;
+    if (batch_.faulted[k]) albedo = kFaultColor;
+    first_[path_of_[k]] = {albedo,      s.shading_normal, s.world, camera_.depth(s.world), hit_of_[k].object + 1,
+                           material + 1};
+  }
+}
+
+void Wavefront::deliver(const Task& task, const SampleOutputs& out) {
   size_t count = task.pixels.size() * task.samples;
   for (size_t k = 0; k < count; ++k) {
     Vec3 value = paths_[k].radiance;
     if (!is_finite(value)) {
       ++faults_[{"", "radiance", kNotFinite, 0, ""}];
       value = Vec3(0);
+      paths_[k].faulted = true;
     }
     float brightest = max_component(value);
     if (settings_.clamp > 0 && brightest > settings_.clamp) value *= settings_.clamp / brightest;
-    radiance[k] = value;
+    out.radiance[k] = value;
+    if (out.faulted) out.faulted[k] = paths_[k].faulted;
   }
 }
 

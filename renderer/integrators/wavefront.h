@@ -22,8 +22,8 @@ public:
   /// `scene` outlives this; `capacity` is the most paths a task may have.
   Wavefront(const PreparedScene& scene, size_t capacity);
 
-  /// Traces the paths of a task; their radiance goes to `radiance`, in the order of the task's pixels and samples.
-  void run(const Task& task, Vec3* radiance);
+  /// Traces the paths of a task, to their ends.
+  void run(const Task& task, const SampleOutputs& out);
 
   const WorkerStats& stats() const { return stats_; }
   const FaultLog& faults() const { return faults_; }
@@ -39,6 +39,7 @@ private:
     uint32_t segments = 0;
     bool mirror = true; ///< no light sampling could have found what this ray finds
     bool alive = true;
+    bool faulted = false;
   };
   struct Shadow {
     uint32_t path;
@@ -68,7 +69,8 @@ private:
   void add_shadow(uint32_t path, size_t k, const LightSample& light, const Vec3& contribution);
   void trace_shadows();
   uint32_t dimension(const Path& path, Draw draw) const { return 1 + path.segments * kDrawCount + draw; }
-  void deliver(const Task& task, Vec3* radiance);
+  void deliver(const Task& task, const SampleOutputs& out);
+  void note_first_hits(uint32_t material, size_t begin, size_t end);
 
   /// What this thread has run so far; waiting for a core does not count.
   static double thread_seconds() {
@@ -90,6 +92,7 @@ private:
   WorkerStats stats_;
   FaultLog faults_;
   double last_ = 0;
+  FirstHit* first_ = nullptr; ///< of the task's paths, where asked for
 
   std::vector<Path> paths_;
   std::vector<uint32_t> active_;
