@@ -1,6 +1,7 @@
 // Parsing, checking and printing the stages of one shader (frontend.h).
 #include "runtime/frontend.h"
 
+#include "compiler/codegen/c_interface.h"
 #include "compiler/codegen/codegen.h"
 #include "compiler/ir/print.h"
 #include "compiler/syntax/ast.h"
@@ -63,7 +64,37 @@ codegen::Options codegen_options(const CompileOptions& options) {
   return {options.precision, options.width, options.optimization, options.cpu, options.target, options.uniform_inputs};
 }
 
-Emission emit(const CheckedShader& shader, Stage stage, const CompileOptions& options) {
+FaultSite resolve(const SourceSet& sources, const codegen::FaultPlaceInfo& place) {
+  if (!place.span.has_place()) return {"", 0, 0, place.message};
+  const LineColumn position = sources.position(place.span.file, place.span.begin);
+  return {std::string(sources.name(place.span.file)), position.line, position.column, place.message};
+}
+
+ShaderInfo compiled_info(const ShaderInfo& info, const ir::Module& module, const CompileOptions& options) {
+  ShaderInfo compiled = info;
+  compiled.entries.clear();
+  for (const ir::Entry& entry : module.entries)
+    compiled.entries.push_back(entry_info(entry.name, info, options));
+  return compiled;
+}
+
+namespace {
+
+codegen::CInterface make_c_interface(const CheckedShader& shader, const ir::Module& module,
+                                     const codegen::CodeInfo& code, const CompileOptions& options,
+                                     const std::string& prefix) {
+  std::vector<codegen::CSite> sites;
+  for (const codegen::FaultPlaceInfo& place : code.places) {
+    FaultSite site = resolve(shader.sources(), place);
+    sites.push_back({std::move(site.file), site.line, site.column, place.code, std::move(site.message)});
+  }
+  return codegen::c_interface(std::string(shader.sources().name(FileId{0})), prefix,
+                              compiled_info(shader.info(), module, options), module, code, std::move(sites));
+}
+
+} // namespace
+
+Emission emit(const CheckedShader& shader, Stage stage, const CompileOptions& options, const std::string& prefix) {
   if (stage == Stage::Ast) {
     std::ostringstream text;
     syntax::print_ast(*shader.parts().chunk, text);
@@ -77,7 +108,11 @@ Emission emit(const CheckedShader& shader, Stage stage, const CompileOptions& op
   Emission emission;
   if (stage == Stage::Llvm) emission.bytes = generated.llvm_text();
   if (stage == Stage::Assembly) emission.bytes = generated.assembly();
-  if (stage == Stage::Object) emission.bytes = generated.object();
+  if (stage == Stage::Object || stage == Stage::Header) {
+    const codegen::CInterface interface = make_c_interface(shader, module, generated.info, options, prefix);
+    emission.bytes = stage == Stage::Object ? generated.c_object(interface)
+                                            : codegen::c_header(interface, generated.info, version());
+  }
   emission.error = generated.error;
   return emission;
 }

@@ -35,14 +35,16 @@ private:
   std::unique_ptr<Parts> parts_;
 };
 
-enum class Stage { Ast, Ir, Llvm, Assembly, Object };
+/// Object and Header: for C and C++ programs (compiler/codegen/c_interface.h).
+enum class Stage { Ast, Ir, Llvm, Assembly, Object, Header };
 
 struct Emission {
   std::string bytes;
   std::string error; ///< for instance an unknown CPU; empty where there is none
 };
 /// The text (or object file) of one stage of an `ok()` shader; Ast also of one that is not.
-Emission emit(const CheckedShader& shader, Stage stage, const CompileOptions& options);
+/// `prefix` begins the names in Object and Header; empty: the file's name.
+Emission emit(const CheckedShader& shader, Stage stage, const CompileOptions& options, const std::string& prefix = {});
 
 /// Compiles an already checked shader.
 Compilation compile(const CheckedShader& shader, const CompileOptions& options);

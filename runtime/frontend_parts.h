@@ -22,6 +22,10 @@ struct CheckedShader::Parts {
 
 /// The optimised IR of the entries that the options ask for.
 ir::Module build_module(const CheckedShader& shader, const CompileOptions& options);
+/// The shader's facts, with the entries of the module, in its order.
+ShaderInfo compiled_info(const ShaderInfo& info, const ir::Module& module, const CompileOptions& options);
+/// A fault site's place in the source.
+FaultSite resolve(const SourceSet& sources, const codegen::FaultPlaceInfo& place);
 codegen::Options codegen_options(const CompileOptions& options);
 
 } // namespace moonshade

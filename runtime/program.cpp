@@ -171,21 +171,6 @@ std::string refusal(const CheckedShader& shader, const codegen::Generated& gener
   return text.str();
 }
 
-FaultSite resolve(const SourceSet& sources, const codegen::FaultPlaceInfo& place) {
-  if (!place.span.has_place()) return {"", 0, 0, place.message};
-  const LineColumn position = sources.position(place.span.file, place.span.begin);
-  return {std::string(sources.name(place.span.file)), position.line, position.column, place.message};
-}
-
-/// The shader's facts, with the entries of the module, in its order.
-ShaderInfo compiled_info(const ShaderInfo& info, const ir::Module& module, const CompileOptions& options) {
-  ShaderInfo compiled = info;
-  compiled.entries.clear();
-  for (const ir::Entry& entry : module.entries)
-    compiled.entries.push_back(entry_info(entry.name, info, options));
-  return compiled;
-}
-
 /// Loads the object code; the error where that fails.
 std::string load(Compiled& compiled, std::string object) {
   compiled.code = JitCode::load(std::move(object));

@@ -11,37 +11,13 @@
 #pragma once
 
 #include "compiler/base/fault.h"
+#include "compiler/codegen/driver.h"
 
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
 namespace moonshade::codegen {
-
-/// What a kernel is given. Its layout is known to entry.cpp.
-struct KernelBatch {
-  uint64_t count;
-  const void* const* inputs;
-  void* const* outputs;
-  const void* constants;
-  void* context; ///< handed through to moonshade_block_faulted
-};
-
-using Kernel = void (*)(const KernelBatch*);
-/// Fills an instance's constants; *fault is 0, or the fault's site plus 1.
-using Init = void (*)(void* constants, uint32_t* fault);
-
-/// Calls compiled code. (The sanitizer's check of a call's type reads what stands before a function: nothing, here.)
-[[clang::no_sanitize("function")]] inline void call_kernel(Kernel kernel, const KernelBatch& batch) { kernel(&batch); }
-[[clang::no_sanitize("function")]] inline void call_init(Init init, void* constants, uint32_t& fault) {
-  init(constants, &fault);
-}
-
-/// One component of an input or an output.
-struct Component {
-  uint8_t size = 0;     ///< of an element in bytes: 1, 4 or 8
-  bool uniform = false; ///< one value for the whole batch (inputs only)
-};
 
 /// What is known of a kernel besides its address.
 struct KernelInfo {
@@ -50,19 +26,8 @@ struct KernelInfo {
   std::vector<FaultCode> site_codes; ///< by fault site
 };
 
-struct BatchFaults {
-  uint64_t count = 0;
-  uint64_t first_point = UINT64_MAX;
-  uint32_t first_site = 0;
-};
-
 /// Shades a whole batch of any count. `fault_codes` is null or has `count` bytes.
 void run_batch(Kernel kernel, const KernelInfo& info, const KernelBatch& batch, BatchFaults& faults,
                uint8_t* fault_codes);
-
-/// What a kernel calls for a block with faults: for each lane the number of its fault's site plus 1, or 0.
-/// `overflowed`: the block was given up because it took too many steps.
-extern "C" void moonshade_block_faulted(const KernelBatch* batch, uint64_t first_point, const uint32_t* sites,
-                                        uint32_t overflowed);
 
 } // namespace moonshade::codegen

@@ -1,6 +1,7 @@
 // The stages of code generation in order (codegen.h): emit, link the library, optimise, and the machine's code.
 #include "compiler/codegen/codegen.h"
 
+#include "compiler/codegen/c_interface_code.h"
 #include "compiler/codegen/emitter.h"
 #include "compiler/codegen/entry.h"
 #include "compiler/codegen/link.h"
@@ -170,6 +171,15 @@ std::string Generated::llvm_text() const {
 
 std::string Generated::assembly() { return machine_code(*this, llvm::CodeGenFileType::AssemblyFile); }
 std::string Generated::object() { return machine_code(*this, llvm::CodeGenFileType::ObjectFile); }
+
+std::string Generated::c_object(const CInterface& interface) {
+  const Domain domain(parts->context, info.precision, info.width);
+  error = add_c_interface(*parts->module, interface, info, attributes_for(parts->target, domain));
+#ifndef NDEBUG
+  if (std::string complaint = verify(*parts->module); !complaint.empty()) error = "internal error: " + complaint;
+#endif
+  return error.empty() ? object() : std::string();
+}
 
 Generated generate(const ir::Module& module, const Options& options) {
   Stopwatch watch;

@@ -21,6 +21,8 @@ struct Options {
   std::vector<std::string> uniform_inputs; ///< by name of the parameter
 };
 
+struct CInterface;
+
 struct EntryCode {
   std::string symbol;
   KernelInfo info;
@@ -65,6 +67,8 @@ public:
   std::string assembly();
   /// An object file of the target.
   std::string object();
+  /// An object file for C programs (c_interface.h).
+  std::string c_object(const CInterface& interface);
 
   struct Parts;
   std::unique_ptr<Parts> parts;

@@ -9,6 +9,7 @@
 #include <llvm/TargetParser/SubtargetFeature.h>
 #include <llvm/TargetParser/Triple.h>
 
+#include <algorithm>
 #include <mutex>
 
 namespace moonshade::codegen {
@@ -107,7 +108,7 @@ Target make_target(const TargetOptions& options) {
 }
 
 unsigned best_width(const Target& target, Precision precision) {
-  return target.vector_bits / (precision == Precision::F32 ? 32 : 64);
+  return std::max(4U, target.vector_bits / (precision == Precision::F32 ? 32 : 64)); // no code is made for two lanes
 }
 
 unsigned native_width(Precision precision) { return best_width(make_target({}), precision); }

@@ -9,7 +9,7 @@ namespace moonshade::shaderc {
 
 int emit_stage(const CheckedShader& shader, const Options& options) {
   if (!shader.ok() && *options.emit != Stage::Ast) return tools::kInputAtFault;
-  const Emission emission = emit(shader, *options.emit, options.compile);
+  const Emission emission = emit(shader, *options.emit, options.compile, options.prefix);
   if (!emission.error.empty()) return call_error(emission.error);
   const std::string output = options.output.empty() ? "-" : options.output;
   if (const std::string error = tools::write_file(output, emission.bytes); !error.empty()) {

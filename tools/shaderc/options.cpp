@@ -38,6 +38,9 @@ void add_output_options(CLI::App& app, Options& options, Raw& raw) {
       ->check(CLI::IsMember({"ast", "ir", "llvm", "asm", "obj", "header"}))
       ->group(group);
   app.add_option("-o", options.output, "File for --emit; - = standard output")->option_text("FILE")->group(group);
+  app.add_option("--prefix", options.prefix, "How names in obj and header begin (default: the file's name)")
+      ->option_text("NAME")
+      ->group(group);
   app.add_flag("--describe", options.describe, "Print entries, parameters, modules and images as JSON")->group(group);
   app.add_flag("--run", options.run, "Evaluate one entry point and print its results")->group(group);
 }
@@ -108,10 +111,9 @@ void add_unavailable_options(CLI::App& app, Raw& raw) {
 }
 
 /// The first option of the call that is not built yet; empty where all are.
-std::string unavailable(const CLI::App& app, const Raw& raw) {
+std::string unavailable(const CLI::App& app) {
   for (const char* name : {"-I", "--remarks", "--cache-dir", "--no-cache", "--bake"})
     if (app.count(name) != 0) return name;
-  if (raw.emit == "header") return "--emit=header";
   return "";
 }
 
@@ -121,6 +123,7 @@ std::optional<Stage> stage_of(const std::string& name) {
   if (name == "llvm") return Stage::Llvm;
   if (name == "asm") return Stage::Assembly;
   if (name == "obj") return Stage::Object;
+  if (name == "header") return Stage::Header;
   return std::nullopt;
 }
 
@@ -140,11 +143,20 @@ void move_inputs_from_files(Options& options) {
   });
 }
 
+/// Letters, digits and underscores, a letter first.
+bool is_identifier(const std::string& text) {
+  for (char c : text)
+    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '_') return false;
+  return std::isalpha(static_cast<unsigned char>(text[0])) != 0;
+}
+
 /// What the options say together; empty where they fit.
 std::string contradiction(const Options& options) {
   const int actions = int(options.emit.has_value()) + int(options.describe) + int(options.run);
   if (actions > 1) return "--emit, --describe and --run exclude each other";
   if (options.files.empty()) return "no file is given";
+  if (!options.prefix.empty() && !is_identifier(options.prefix))
+    return "--prefix: '" + options.prefix + "' cannot begin a name in C";
   if (options.files.size() > 1 && (options.emit || options.run)) return "--emit and --run take one file";
   if (!options.emit && !options.output.empty()) return "-o stands with --emit";
   if (!options.run && !options.inputs.empty()) return "--input stands with --run";
@@ -207,7 +219,7 @@ ParsedOptions parse_options(int argc, char** argv) {
   app.set_version_flag("--version", version(), "Print the version")->group("Reports");
   app.footer(kExamples);
   if (const auto status = parse_arguments(app, argc, argv, "shaderc")) return {std::nullopt, *status};
-  if (const std::string name = unavailable(app, raw); !name.empty())
+  if (const std::string name = unavailable(app); !name.empty())
     return {std::nullopt, call_error(name + " is not available yet")};
   settle(options, raw);
   if (const std::string problem = contradiction(options); !problem.empty()) return {std::nullopt, call_error(problem)};

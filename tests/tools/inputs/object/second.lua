@@ -1,0 +1,3 @@
+function height(fw)
+  return fw + 42
+end
