@@ -48,6 +48,7 @@ void add_gradients(ir::Module& module, const ShaderInfo& info, const CompileOpti
     if (entry == nullptr || found == module.entries.end()) continue;
     const std::vector<uint32_t> inputs = declared(*entry, gradient);
     if (!is_small_enough(*entry, inputs)) continue;
+    if (ir::derivative_order(module, found->function) >= ir::kMaxOrder) continue;
     const ir::FunctionId function = inputs.empty() ? found->function : add_gradient(module, found->function, inputs);
     module.entries.push_back({gradient_name(gradient), function});
   }

@@ -54,7 +54,8 @@ struct CompileOptions {
   uint64_t step_limit = 1'000'000;
   /// At most this many diagnostics are kept, and colour is used in their text.
   bool color_diagnostics = false;
-  /// Entries to add; those of functions that the shader does not have are left out. (Compiled code only.)
+  /// Entries to add; those of functions that the shader does not have are left out, and of functions that differentiate
+  /// as often as there are derivatives. (Compiled code only.)
   std::vector<Gradient> gradients;
 };
 

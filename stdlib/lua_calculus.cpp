@@ -12,7 +12,7 @@ namespace {
 constexpr double kStencil[4] = {4.0 / 5, -1.0 / 5, 4.0 / 105, -1.0 / 280};
 /// For |x| <= 1; a power of two, so that x + h is what it says. Cancellation costs 2^-53 / h, the stencil h^8
 /// f^(9)/630.
-constexpr double kStep = 0x1p-13;
+constexpr double kStep = 0x1p-15;
 
 /// The point: 1 to 4 numbers; a number, not a vector, where `size` is 0.
 struct Point {

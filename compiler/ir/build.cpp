@@ -157,13 +157,16 @@ void FunctionBuild::defect(std::string_view what) {
 Module build(const sema::Program& program, const BuildOptions& options) {
   Module module;
   module.step_limit = options.step_limit;
-  ModuleBuild shared{.program = program, .module = module, .slots = {}, .parameters = {}};
+  const auto functions = static_cast<FunctionId>(program.specialisations.size());
+  ModuleBuild shared{
+      .program = program, .module = module, .slots = {}, .parameters = {}, .derivatives = Derivatives(functions)};
   declare_globals(shared);
   for (const auto& specialisation : program.specialisations)
     module.functions.push_back(declare(*specialisation));
   module.init = 0;
   for (const auto& specialisation : program.specialisations)
     FunctionBuild(shared, *specialisation, module.functions[specialisation->id]).run();
+  shared.derivatives.make(module);
   for (const sema::EntryPoint& entry : program.entries) {
     FunctionId function = entry.specialisation->id;
     if (const EntryInfo* described = program.info.find_entry(entry.name))

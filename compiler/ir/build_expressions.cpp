@@ -421,6 +421,10 @@ FunctionBuild::Values FunctionBuild::call(const Expr& expr) {
     return {converted(arguments[0], known.type.value)};
   case CallKind::ToInteger:
     return {to_integer(known, arguments[0])};
+  case CallKind::Gradient:
+    return {gradient(known, arguments[1])};
+  case CallKind::Fwidth:
+    return {fwidth(known, arguments[1], arguments[2])};
   case CallKind::Assert:
     assertion(expr, args, arguments[0]);
     return arguments;
@@ -435,12 +439,8 @@ FunctionBuild::Values FunctionBuild::call_specialisation(const ExpressionFact& k
   for (size_t i = 0; i < callee.parameters.size(); ++i)
     if (is_value(callee.parameters[i]))
       passed.push_back(converted(i < arguments.size() ? arguments[i] : kNone, callee.parameters[i].value));
-  std::vector<VariableId> captures;
-  captures.reserve(callee.captures.size());
-  for (const Local* local : callee.captures)
-    captures.push_back(variable_of(*local));
   const std::vector<ValueType> results = run_time_types(callee.results);
-  const ValueId call = b_.call(callee.id, results, std::move(passed), std::move(captures));
+  const ValueId call = b_.call(callee.id, results, std::move(passed), captures_of(callee));
   Values values;
   uint32_t index = 0;
   for (const sema::Type& type : callee.results) {
@@ -448,6 +448,14 @@ FunctionBuild::Values FunctionBuild::call_specialisation(const ExpressionFact& k
     if (is_value(type)) ++index;
   }
   return values;
+}
+
+std::vector<VariableId> FunctionBuild::captures_of(const sema::Specialisation& callee) {
+  std::vector<VariableId> captures;
+  captures.reserve(callee.captures.size());
+  for (const Local* local : callee.captures)
+    captures.push_back(variable_of(*local));
+  return captures;
 }
 
 FunctionBuild::Values FunctionBuild::call_library(const ExpressionFact& known, Values arguments) {

@@ -2,6 +2,7 @@
 // build_expressions.cpp and build_statements.cpp.
 #pragma once
 
+#include "compiler/ir/build_calculus.h"
 #include "compiler/ir/builder.h"
 #include "compiler/sema/program.h"
 
@@ -18,6 +19,7 @@ struct ModuleBuild {
   Module& module;
   std::unordered_map<const syntax::Local*, GlobalId> slots; ///< top-level locals that are globals
   std::vector<GlobalId> parameters;                         ///< by the shader's parameter; kNone for strings
+  Derivatives derivatives;                                  ///< that the bodies call
 };
 
 /// The types that a list of sema's types has at run time: those that are values.
@@ -85,6 +87,13 @@ private:
   ValueId library_value(const LibraryFunction& row, ValueType type, Values operands);
   void divisor_fault(ValueId divisor);
   std::string message_of(std::span<syntax::Expr* const> args, size_t index, std::string_view otherwise) const;
+
+  /// The variables that a call of a specialisation binds to its captures.
+  std::vector<VariableId> captures_of(const sema::Specialisation& callee);
+
+  // Derivatives (build_calculus.cpp)
+  ValueId gradient(const sema::ExpressionFact& known, ValueId point);
+  ValueId fwidth(const sema::ExpressionFact& known, ValueId point, ValueId width);
 
   // Statements (build_statements.cpp)
   void statements(const syntax::Block& block);

@@ -4,9 +4,11 @@
 
 #include "compiler/ir/builder.h"
 #include "compiler/ir/derivative_activity.h"
+#include "compiler/ir/walk.h"
 
 #include <algorithm>
 #include <cassert>
+#include <set>
 #include <string>
 #include <unordered_map>
 
@@ -500,6 +502,22 @@ void Writer::call(ValueId id) {
 }
 
 } // namespace
+
+unsigned derivative_order(const Module& module, FunctionId function) {
+  std::vector<FunctionId> pending{function};
+  std::set<FunctionId> seen{function};
+  unsigned order = 0;
+  while (!pending.empty()) {
+    const Function& current = module.functions[pending.back()];
+    pending.pop_back();
+    for_each_instruction(current, [&](ValueId id) {
+      const Instruction& instruction = current.instructions[id];
+      if (instruction.op == Op::CallLibrary && is_derivative_export(instruction.library->symbol)) order = 1;
+      if (instruction.op == Op::Call && seen.insert(instruction.index).second) pending.push_back(instruction.index);
+    });
+  }
+  return order;
+}
 
 FunctionId add_gradient(Module& module, FunctionId function, std::span<const uint32_t> parameters) {
   ActivityKey key{function, {}, {}};

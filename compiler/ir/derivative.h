@@ -37,4 +37,9 @@ inline constexpr unsigned kMaxDirections = 16;
 /// what `function` does. No function that is made here may be differentiated again: the library has first derivatives.
 FunctionId add_gradient(Module& module, FunctionId function, std::span<const uint32_t> parameters);
 
+/// How often the library's functions that `function` uses are differentiated already. Beyond kMaxOrder the library has
+/// no derivatives: what has this order must not be differentiated again.
+unsigned derivative_order(const Module& module, FunctionId function);
+inline constexpr unsigned kMaxOrder = 1;
+
 } // namespace moonshade::ir

@@ -38,7 +38,7 @@ TypeList Walker::call(const CallExpr& expr) {
   const Type callee = expression(*expr.callee);
   switch (callee.kind) {
   case Type::Kind::Function:
-    return call_function(expr, *callee.function);
+    return call_function(expr, *callee.function, arguments(expr.args));
   case Type::Kind::Library:
     if (callee.text != "math") return call_library(expr, callee.text);
     break;
@@ -71,8 +71,7 @@ bool Walker::is_recursive(const CallExpr& expr, const Function& function) {
   return true;
 }
 
-TypeList Walker::call_function(const CallExpr& expr, const Function& function) {
-  TypeList args = arguments(expr.args);
+TypeList Walker::call_function(const CallExpr& expr, const Function& function, TypeList args) {
   if (is_recursive(expr, function)) return unknown_values();
   if (function.is_vararg) return unknown_values(); // refused where it is defined
   const size_t count = function.params.size();
@@ -117,6 +116,7 @@ TypeList Walker::call_library(const CallExpr& expr, std::string_view name) {
   if (name == "math.floor" || name == "math.ceil" || name == "math.tointeger") return to_integer(expr, name);
   if (name == "math.max" || name == "math.min") return extremum(expr, name);
   if (name == "math.type") return math_type(expr);
+  if (is_derivative(name)) return derivative_call(expr, name);
   const TypeList types = arguments(expr.args);
   if (types.open) return unknown_values();
   return call_table_row(expr, name, {expr.args.begin(), expr.args.end()}, types.types);

@@ -70,6 +70,7 @@ void close_specialisation(Context& context, Work& work) {
       capture(local);
   for (const auto& [id, link] : work.callees) {
     const Work* callee = link.work;
+    work.derivative_order = std::max(work.derivative_order, callee->derivative_order);
     for (const syntax::Local* local : callee->outer_writes)
       if (local->function != work.function) work.outer_writes.insert(local);
     for (const syntax::Local* local : callee->captures) {

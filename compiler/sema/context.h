@@ -24,6 +24,8 @@ inline constexpr unsigned kMaxCallDepth = 200;
 inline constexpr unsigned kMaxWalkDepth = 3000;
 inline constexpr size_t kMaxFacts = 2'000'000;
 inline constexpr uint64_t kMaxVisits = 100'000'000;
+/// How often what stands inside each other may be differentiated.
+inline constexpr unsigned kMaxDerivativeOrder = 1;
 
 /// A variable that a specialisation may read before it assigns it: a local of an enclosing function, or a global.
 struct Requirement {
@@ -73,7 +75,8 @@ struct Work {
   /// Locals of enclosing functions that it assigns whenever it returns; of the top level all its variables.
   /// Sorted.
   std::vector<const void*> assigns_always;
-  bool never_returns = false; ///< every path ends in error() or an endless loop
+  unsigned derivative_order = 0; ///< how many gradients stand inside each other, in it and in what it calls
+  bool never_returns = false;    ///< every path ends in error() or an endless loop
   /// Locals of enclosing functions (not the top level) that it or its callees assign.
   std::set<const syntax::Local*> outer_writes;
   /// Statements that assign locals of the top level.

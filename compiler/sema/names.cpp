@@ -56,8 +56,6 @@ constexpr RefusedName kRefusedNames[] = {
     {"require", Code::NotAvailableYet, "modules ('require') are"},
     {"ipairs", Code::NotAvailableYet, "arrays ('ipairs') are"},
     {"print", Code::NotAvailableYet, "'print' is"},
-    {"gradient", Code::NotAvailableYet, "'gradient' is"},
-    {"fwidth", Code::NotAvailableYet, "'fwidth' is"},
     {"texture", Code::NotAvailableYet, "images ('texture') are"},
     {"mat3", Code::NotAvailableYet, "matrices ('mat3') are"},
     {"mat4", Code::NotAvailableYet, "matrices ('mat4') are"},
@@ -81,9 +79,9 @@ constexpr std::string_view kPlannedFunctions[] = {
     "math.type",   "math.ult",
 };
 
-constexpr std::array<std::string_view, 11> kBuiltIn = {"vec2",      "vec3",           "vec4",     "rgb",
-                                                       "param",     "assert",         "error",    "math.floor",
-                                                       "math.ceil", "math.tointeger", "math.type"};
+constexpr std::array<std::string_view, 13> kBuiltIn = {
+    "vec2",       "vec3",      "vec4",           "rgb",       "param",    "assert", "error",
+    "math.floor", "math.ceil", "math.tointeger", "math.type", "gradient", "fwidth"};
 
 constexpr LibraryConstant kConstants[] = {
     {"math.pi", false, std::numbers::pi, 0},

@@ -70,6 +70,8 @@ enum class CallKind : uint8_t {
   Parameter,      ///< param: Program::info.parameters[index]
   Assert,         ///< assert(c, message)
   Error,          ///< error(message)
+  Gradient,       ///< gradient(f, p): `callee` or, where that is null, `library`, of one parameter, by it
+  Fwidth,         ///< fwidth(f, p, fw): the length of that, times the magnitude of fw
 };
 
 /// How an operator expression is to be computed.

@@ -1,6 +1,6 @@
 // The walk over the body of one specialisation: gives every expression its type, joins the types of variables and
 // results, and in the reporting round refuses what the dialect leaves out and records the facts. Its methods stand in
-// expressions.cpp, operators.cpp, conditionals.cpp, calls.cpp, parameters.cpp and statements.cpp.
+// expressions.cpp, operators.cpp, conditionals.cpp, calls.cpp, calculus.cpp, parameters.cpp and statements.cpp.
 #pragma once
 
 #include "compiler/sema/context.h"
@@ -60,7 +60,7 @@ private:
 
   // ---- calls.cpp
   TypeList call(const syntax::CallExpr& expr);
-  TypeList call_function(const syntax::CallExpr& expr, const syntax::Function& function);
+  TypeList call_function(const syntax::CallExpr& expr, const syntax::Function& function, TypeList args);
   TypeList call_library(const syntax::CallExpr& expr, std::string_view name);
   TypeList call_table_row(const syntax::Expr& expr, std::string_view name, const std::vector<const syntax::Expr*>& args,
                           const std::vector<Type>& types);
@@ -74,6 +74,11 @@ private:
   TypeList arguments(std::span<syntax::Expr* const> args);
   bool is_recursive(const syntax::CallExpr& expr, const syntax::Function& function);
   Work* lexical_owner(const syntax::Function* function) const;
+
+  // ---- calculus.cpp
+  TypeList derivative_call(const syntax::CallExpr& expr, std::string_view name);
+  bool takes_derivative_arguments(const syntax::CallExpr& expr, std::string_view name, const TypeList& args);
+  bool is_free_of_effects(const syntax::Expr& function, const Work& callee, std::string_view name);
 
   // ---- parameters.cpp
   TypeList parameter(const syntax::CallExpr& expr);
@@ -137,6 +142,9 @@ private:
   };
   std::unordered_map<const syntax::LabelStat*, LabelPlace> labels_;
 };
+
+/// gradient and fwidth: their first argument is a function.
+bool is_derivative(std::string_view name);
 
 /// The expression inside any parentheses.
 const syntax::Expr& strip_parentheses(const syntax::Expr& expr);

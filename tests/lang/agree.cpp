@@ -98,19 +98,21 @@ Points make_points(const EntryInfo& entry, Precision precision, bool mild) {
   return points;
 }
 
-bool same(ValueType type, Scalar a, Scalar b) {
+/// The same bits, or numbers that are nearly the same where `near` is not 0.
+bool same(ValueType type, Scalar a, Scalar b, double near) {
   if (type == ValueType::Boolean) return a.boolean == b.boolean;
   if (type == ValueType::Integer) return a.integer == b.integer;
   if (std::isnan(a.number) || std::isnan(b.number)) return std::isnan(a.number) && std::isnan(b.number);
+  if (near != 0 && std::abs(a.number - b.number) <= near * std::max(1.0, std::abs(a.number))) return true;
   return std::bit_cast<uint64_t>(a.number) == std::bit_cast<uint64_t>(b.number);
 }
 
 /// The first row in which the results or faults differ, or capacity().
-size_t first_difference(const Points& a, const Points& b) {
+size_t first_difference(const Points& a, const Points& b, double near = 0) {
   for (size_t row = 0; row < a.capacity(); ++row) {
     if (a.fault(row) != b.fault(row)) return row;
     for (size_t i = 0; i < a.output_count(); ++i)
-      if (!same(a.output_type(i), a.output(i, row), b.output(i, row))) return row;
+      if (!same(a.output_type(i), a.output(i, row), b.output(i, row), near)) return row;
   }
   return a.capacity();
 }
@@ -126,10 +128,12 @@ public:
     for (size_t entry = 0; entry < checked_.info().entries.size(); ++entry) {
       doubles_.push_back(shaded(*lua.shader, entry));
       floats_.push_back(std::nullopt);
+      near_doubles_.push_back(std::nullopt);
     }
-    check_runs("stock Lua", [&](const auto& parameters) {
-      return interpret(checked_, parameters, {.count_steps = true, .step_limit = directives_.step_limit});
-    });
+    if (directives_.near == 0)
+      check_runs("stock Lua", [&](const auto& parameters) {
+        return interpret(checked_, parameters, {.count_steps = true, .step_limit = directives_.step_limit});
+      });
     for (int optimization : {2, 0})
       for (Precision precision : {Precision::F32, Precision::F64})
         for (unsigned width : kWidths)
@@ -170,8 +174,12 @@ private:
       floats_[entry] = std::move(points); // the first variant is what the others must equal
       return;
     }
-    const Points& exact = variant.precision == Precision::F64 ? doubles_[entry] : *floats_[entry];
-    const size_t row = first_difference(exact, points);
+    const bool is_first_near = directives_.near != 0 && variant.precision == Precision::F64 && !near_doubles_[entry];
+    const bool has_near = directives_.near != 0 && !is_first_near;
+    const Points& doubles = has_near && near_doubles_[entry] ? *near_doubles_[entry] : doubles_[entry];
+    const Points& exact = variant.precision == Precision::F64 ? doubles : *floats_[entry];
+    const size_t row = first_difference(exact, points, is_first_near ? directives_.near : 0);
+    if (is_first_near) near_doubles_[entry] = points;
     if (row == kPoints) return;
     const EntryInfo& info = shader.info().entries[entry];
     std::string expected, found;
@@ -300,8 +308,9 @@ private:
 
   const CheckedShader& checked_;
   const Directives& directives_;
-  std::vector<Points> doubles_;               ///< stock Lua's, for each entry
-  std::vector<std::optional<Points>> floats_; ///< the first f32 variant's
+  std::vector<Points> doubles_;                     ///< stock Lua's, for each entry
+  std::vector<std::optional<Points>> floats_;       ///< the first f32 variant's
+  std::vector<std::optional<Points>> near_doubles_; ///< the first f64 variant's, where stock Lua is only near
   std::string findings_;
 };
 

@@ -62,6 +62,8 @@ Directives read_directives(const std::string& text) {
       directives.errors.push_back(error);
     } else if (take(line, "steps:", rest)) {
       directives.step_limit = std::stoull(rest);
+    } else if (take(line, "near:", rest)) {
+      directives.near = std::stod(rest);
     } else if (line == "-- mild") {
       directives.mild = true;
     }

@@ -26,6 +26,7 @@ struct Directives {
   std::vector<Run> runs;
   std::vector<ExpectedError> errors;
   bool mild = false;
+  double near = 0; ///< how far compiled code may be from stock Lua, which differentiates by differences
   uint64_t step_limit = 1'000'000;
   std::string problem; ///< a directive that cannot be understood
 };
