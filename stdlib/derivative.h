@@ -26,9 +26,10 @@ template <class Row, unsigned Active, class L, class R, class... A> class Deriva
 
 public:
   static constexpr unsigned parameter_count = sizeof...(A);
-  /// A column is the result's derivative by one component of one parameter, in order.
+  /// A column is the derivative of the result (or of all results) by one component of one parameter, in order.
   static constexpr int columns = first_column(sizeof...(A));
-  static constexpr unsigned pointers = 1 + columns + parameter_count;
+  static constexpr unsigned results = result_count<R>;
+  static constexpr unsigned pointers = results * (1 + columns) + parameter_count;
   using Result = R;
   using D = Dual<L, columns>;
   static_assert(columns > 0 && (Active >> parameter_count) == 0, "derivatives.def: no such parameters");
@@ -39,17 +40,26 @@ public:
       return Row::template Of<D>::call(seed<I>(arguments)...);
     }(std::index_sequence_for<A...>());
   }
-  /// The column of the result.
-  MS_INLINE static L column(const D& result, int k) { return result.d[k]; }
-  template <int N> MS_INLINE static Vec<N, L> column(const Vec<N, D>& result, int k) {
-    return map<N, L>([k](const D& x) __attribute__((always_inline)) { return x.d[k]; }, result);
+  /// The column of the result, or of each of several.
+  template <class T> MS_INLINE static R column(const T& result, int k) {
+    return map_results(result, [k](const auto& x) __attribute__((always_inline)) { return slope_of(x, k); });
   }
-  MS_INLINE static L value(const D& result) { return result.v; }
-  template <int N> MS_INLINE static Vec<N, L> value(const Vec<N, D>& result) {
-    return map<N, L>([](const D& x) __attribute__((always_inline)) { return x.v; }, result);
+  template <class T> MS_INLINE static R value(const T& result) {
+    return map_results(result, [](const auto& x) __attribute__((always_inline)) { return value_of(x); });
   }
 
 private:
+  MS_INLINE static L slope_of(const D& x, int k) { return x.d[k]; }
+  template <int N> MS_INLINE static Vec<N, L> slope_of(const Vec<N, D>& v, int k) {
+    return map<N, L>([k](const D& x) __attribute__((always_inline)) { return x.d[k]; }, v);
+  }
+  template <class T> MS_INLINE static T slope_of(const T&, int) { return T{}; } // of an integer or boolean
+  MS_INLINE static L value_of(const D& x) { return x.v; }
+  template <int N> MS_INLINE static Vec<N, L> value_of(const Vec<N, D>& v) {
+    return map<N, L>([](const D& x) __attribute__((always_inline)) { return x.v; }, v);
+  }
+  template <class T> MS_INLINE static T value_of(const T& x) { return x; }
+
   template <size_t I> MS_INLINE static D seed(const L& number, int component = 0) {
     D result = D::of(number);
     if constexpr ((Active >> I & 1) != 0) {

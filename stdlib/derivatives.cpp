@@ -14,7 +14,7 @@ using namespace stdlib;
 #define DEFAULTS(...)
 #include "stdlib/table.def"
 
-/// A bit for each component of the result that depends on column k.
+/// A bit for each component of a result that depends on column k.
 template <int N> uint16_t used(const Dual<double, N>& result, int k) { return result.on(k) ? 1 : 0; }
 template <int M, int N> uint16_t used(const Vec<M, Dual<double, N>>& result, int k) {
   uint16_t bits = 0;
@@ -22,6 +22,7 @@ template <int M, int N> uint16_t used(const Vec<M, Dual<double, N>>& result, int
     bits |= uint16_t(result[i].on(k) ? 1u << i : 0u);
   return bits;
 }
+template <class T> uint16_t used(const T&, int) { return 0; } // an integer or boolean
 
 template <class T> T some_argument() {
   if constexpr (std::is_same_v<T, double>)
@@ -38,7 +39,7 @@ template <class Row, unsigned Active, class Type = typename Row::template Of<dou
 template <class Row, unsigned Active, class R, class... A> struct Description<Row, Active, R(A...)> {
   using Of = Derivative<Row, Active, double>;
   static LibraryDerivative of(std::string_view symbol, std::string_view name, std::string_view derivative_symbol) {
-    static_assert(1 + Of::columns <= LibraryFunction::kMaxResults);
+    static_assert(Of::results * (1 + Of::columns) <= LibraryFunction::kMaxResults);
     LibraryDerivative derivative = {};
     derivative.row = &row_of(symbol);
     derivative.parameters = Active;
@@ -46,11 +47,15 @@ template <class Row, unsigned Active, class R, class... A> struct Description<Ro
     derivative.function.name = name;
     derivative.function.symbol = derivative_symbol;
     derivative.function.componentwise = false;
-    derivative.function.result_count = 1 + Of::columns;
-    const auto result = Of::of(some_argument<A>()...);
+    derivative.function.result_count = Of::results * (1 + Of::columns);
+    const auto results = Of::of(some_argument<A>()...);
     for (int k = 0; k < Of::columns; ++k) {
-      derivative.function.results[1 + k] = derivative.row->results[0];
-      derivative.used[k] = used(result, k);
+      unsigned r = 0;
+      for_each_result(results, [&](const auto& result) {
+        const unsigned index = derivative.index(unsigned(k), r);
+        derivative.function.results[Of::results + index] = derivative.row->results[r++];
+        derivative.used[index] = used(result, k);
+      });
     }
     return derivative;
   }

@@ -234,10 +234,10 @@ template <class L, class T> void write(Column& column, unsigned point, const T& 
 template <class L, class T> void write_all(std::vector<Column>& results, unsigned point, const T& value) {
   write<L>(results[0], point, value);
 }
-template <class L, class A, class B>
-void write_all(std::vector<Column>& results, unsigned point, const Results<A, B>& value) {
-  write<L>(results[0], point, value.first);
-  write<L>(results[1], point, value.second);
+template <class L, class... T>
+void write_all(std::vector<Column>& results, unsigned point, const Results<T...>& values) {
+  size_t next = 0;
+  for_each_result(values, [&](const auto& value) { write<L>(results[next++], point, value); });
 }
 
 template <class Row, class L, class... P> struct Native {

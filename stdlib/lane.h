@@ -206,9 +206,36 @@ template <class L> MS_INLINE Int<L> to_integer(L x) {
 }
 
 /// Several results of one function.
-template <class A, class B> struct Results {
+template <class... T> struct Results;
+template <class A, class B> struct Results<A, B> {
   A first;
   B second;
 };
+template <class A, class B, class C> struct Results<A, B, C> {
+  A first;
+  B second;
+  C third;
+};
+
+/// f of each result, in order; of the one value, where there are not several.
+template <class T, class F> MS_INLINE void for_each_result(const T& value, F f) { f(value); }
+template <class A, class B, class F> MS_INLINE void for_each_result(const Results<A, B>& results, F f) {
+  f(results.first), f(results.second);
+}
+template <class A, class B, class C, class F> MS_INLINE void for_each_result(const Results<A, B, C>& results, F f) {
+  f(results.first), f(results.second), f(results.third);
+}
+/// Results of f of each result; f of the one value.
+template <class T, class F> MS_INLINE auto map_results(const T& value, F f) { return f(value); }
+template <class A, class B, class F> MS_INLINE auto map_results(const Results<A, B>& results, F f) {
+  return Results<decltype(f(results.first)), decltype(f(results.second))>{f(results.first), f(results.second)};
+}
+template <class A, class B, class C, class F> MS_INLINE auto map_results(const Results<A, B, C>& results, F f) {
+  return Results<decltype(f(results.first)), decltype(f(results.second)), decltype(f(results.third))>{
+      f(results.first), f(results.second), f(results.third)};
+}
+/// How many there are.
+template <class T> inline constexpr int result_count = 1;
+template <class... T> inline constexpr int result_count<Results<T...>> = int(sizeof...(T));
 
 } // namespace moonshade::stdlib

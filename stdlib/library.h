@@ -31,7 +31,7 @@ inline constexpr std::array<unsigned, 5> kWidths = {1, 4, 8, 16, 32};
 /// One overload of a function of the library.
 struct LibraryFunction {
   static constexpr unsigned kMaxParameters = 8;
-  static constexpr unsigned kMaxResults = 10;
+  static constexpr unsigned kMaxResults = 32;
 
   /// As Lua writes it: "noise", "math.sin". Operators that are more than one instruction begin with "op.": "op.mod".
   std::string_view name;
@@ -57,16 +57,22 @@ std::span<const LibraryFunction> library();
 /// The overloads of `name`; empty where the library has no such function.
 std::span<const LibraryFunction> library_overloads(std::string_view name);
 
-/// A row's derivative as a function of its own: the row's parameters; results are the row's result and, for each
-/// component of the parameters that it differentiates by, in order, the result's derivative by that component (of the
-/// result's type). Its exports are of their own too (derivative_bitcode). A componentwise row's is for numbers.
+/// A row's derivative as a function of its own: the row's parameters; results are the row's results and, for each
+/// component of the parameters that it differentiates by, in order, each result's derivative by that component (of the
+/// result's type; of an integer or boolean 0). Its exports are of their own too (derivative_bitcode). A componentwise
+/// row's is for numbers.
 struct LibraryDerivative {
   LibraryFunction function;
   const LibraryFunction* row;
   /// A bit for each parameter, the first in the lowest.
   unsigned parameters;
-  /// By component of those parameters: a bit for each component of the result that can depend on it.
-  std::array<uint16_t, LibraryFunction::kMaxResults - 1> used;
+  /// By component of those parameters and result (`index`): a bit for each component of the result that can depend on
+  /// it.
+  std::array<uint16_t, LibraryFunction::kMaxResults> used;
+
+  /// The place in `used` of one result's derivative by one component; in the function's results that of the value's
+  /// results is before them.
+  unsigned index(unsigned column, unsigned result) const { return column * row->result_count + result; }
 };
 
 /// All of them. The first call makes the table.

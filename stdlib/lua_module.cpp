@@ -95,11 +95,12 @@ template <class Facts, class... P> struct RowCall {
     return true;
   }
 
-  /// Calls the row if the arguments fit, and pushes its result; false where they do not.
+  /// Calls the row if the arguments fit, and pushes its results; false where they do not.
   static bool call(lua_State* state, Arguments& arguments, bool convert) {
     return fill_defaults(arguments) && [&]<size_t... I>(std::index_sequence<I...>) {
       if (!(Argument<P>::fits(arguments.values[I], convert) && ...)) return false;
-      push(state, Facts::Row::call(Argument<P>::read(arguments.values[I])...));
+      for_each_result(Facts::Row::call(Argument<P>::read(arguments.values[I])...),
+                      [&](const auto& result) { push(state, result); });
       return true;
     }(Indices());
   }
@@ -239,9 +240,10 @@ template <size_t First, size_t... I> int call_rows(lua_State* state) {
   arguments.count = given > int(kMaxArguments) ? kMaxArguments : unsigned(given);
   for (unsigned i = 0; i < arguments.count; ++i)
     arguments.values[i] = lua_value(state, int(i) + 1);
-  if ((RowCallOf<FactsAt<First + I>>::Type::call(state, arguments, false) || ...)) return 1;
-  if ((RowCallOf<FactsAt<First + I>>::Type::call(state, arguments, true) || ...)) return 1;
-  if ((RowCallOf<FactsAt<First + I>>::Type::call_by_component(state, arguments) || ...)) return 1;
+  if ((RowCallOf<FactsAt<First + I>>::Type::call(state, arguments, false) || ...)) return lua_gettop(state) - given;
+  if ((RowCallOf<FactsAt<First + I>>::Type::call(state, arguments, true) || ...)) return lua_gettop(state) - given;
+  if ((RowCallOf<FactsAt<First + I>>::Type::call_by_component(state, arguments) || ...))
+    return lua_gettop(state) - given;
   refuse(state, library_overloads(FactsAt<First>::name), arguments);
 }
 

@@ -32,7 +32,8 @@ template <class R, class... A> struct Signature<R(A...)> {
   using Vec2 = ::moonshade::stdlib::Vec<2, L>;                                                                         \
   using Vec3 = ::moonshade::stdlib::Vec<3, L>;                                                                         \
   using Vec4 = ::moonshade::stdlib::Vec<4, L>;                                                                         \
-  using IntegerIfAny = ::moonshade::stdlib::Results<::moonshade::stdlib::Int<L>, ::moonshade::stdlib::Mask<L>>;
+  using IntegerIfAny = ::moonshade::stdlib::Results<::moonshade::stdlib::Int<L>, ::moonshade::stdlib::Mask<L>>;        \
+  using NumberNumberNumber = ::moonshade::stdlib::Results<L, L, L>;
 
 #define MS_ROW(symbol_, function_, type_)                                                                              \
   struct Row_##symbol_ {                                                                                               \
@@ -57,8 +58,8 @@ template <int N> inline constexpr ValueType value_type_of<Vec<N, double>> = vect
 template <class T> struct ResultTypes {
   static constexpr std::array<ValueType, 1> value = {value_type_of<T>};
 };
-template <class A, class B> struct ResultTypes<Results<A, B>> {
-  static constexpr std::array<ValueType, 2> value = {value_type_of<A>, value_type_of<B>};
+template <class... T> struct ResultTypes<Results<T...>> {
+  static constexpr std::array<ValueType, sizeof...(T)> value = {value_type_of<T>...};
 };
 template <class... A> struct ParameterTypes {
   static constexpr std::array<ValueType, sizeof...(A)> value = {value_type_of<A>...};

@@ -53,7 +53,7 @@ private:
   void library_call(ValueId id);
   void library_call_by_component(ValueId id);
   ValueId differentiate_call(const LibraryFunction& row, unsigned parameters, const std::vector<ValueId>& operands,
-                             const std::vector<Tangents>& tangents, Tangents& result);
+                             const std::vector<Tangents>& tangents, std::vector<Tangents>& results);
   void call(ValueId id);
   void nested(ValueId id);
 
@@ -409,10 +409,11 @@ void Writer::compose(ValueId id) {
 
 // ------------------------------------------------------------------------------------------------------------- Calls
 
-/// A call of the row's derivative and the chain rule; the value is returned.
+/// A call of the row's derivative and the chain rule, for each of its results; the value is returned.
 ValueId Writer::differentiate_call(const LibraryFunction& row, unsigned parameters,
                                    const std::vector<ValueId>& operands, const std::vector<Tangents>& tangents,
-                                   Tangents& result) {
+                                   std::vector<Tangents>& results) {
+  results.assign(row.result_count, {});
   assert(!is_derivative_export(row.symbol)); // the library has no second derivatives
   const LibraryDerivative* derivative = library_derivative(row, parameters);
   if (derivative == nullptr) return b_->call_library(row, row.results[0], operands);
@@ -421,15 +422,18 @@ ValueId Writer::differentiate_call(const LibraryFunction& row, unsigned paramete
   for (size_t i = 0; i < operands.size(); ++i) {
     if ((derivative->parameters >> i & 1) == 0) continue;
     for (unsigned c = 0; c < component_count(row.parameters[i]); ++c, ++column) {
-      ValueId slope = kNone;
-      for (unsigned r = 0; r < component_count(row.results[0]); ++r) {
-        if ((derivative->used[column] >> r & 1) == 0) continue;
-        ValueId slope_component = kNone;
-        for (unsigned k = 0; k < kMaxDirections; ++k) {
-          if (at(tangents[i], c, k) == kNone) continue;
-          if (slope == kNone) slope = b_->result(made, 1 + column, row.results[0]);
-          if (slope_component == kNone) slope_component = component(slope, r);
-          set(result, r, k, sum(at(result, r, k), product(slope_component, at(tangents[i], c, k))));
+      for (unsigned n = 0; n < row.result_count; ++n) {
+        const unsigned index = derivative->index(column, n);
+        ValueId slope = kNone;
+        for (unsigned r = 0; r < component_count(row.results[n]); ++r) {
+          if ((derivative->used[index] >> r & 1) == 0) continue;
+          ValueId slope_component = kNone;
+          for (unsigned k = 0; k < kMaxDirections; ++k) {
+            if (at(tangents[i], c, k) == kNone) continue;
+            if (slope == kNone) slope = b_->result(made, row.result_count + index, row.results[n]);
+            if (slope_component == kNone) slope_component = component(slope, r);
+            set(results[n], r, k, sum(at(results[n], r, k), product(slope_component, at(tangents[i], c, k))));
+          }
         }
       }
     }
@@ -438,14 +442,18 @@ ValueId Writer::differentiate_call(const LibraryFunction& row, unsigned paramete
 }
 
 void Writer::library_call(ValueId id) {
-  if (!activity_.values[id].any()) return copy(id);
   const Instruction& instruction = source(id);
+  const bool one_result = instruction.library->result_count == 1;
+  if (one_result && !activity_.values[id].any()) return copy(id);
   if (instruction.library->componentwise && is_vector(instruction.type)) return library_call_by_component(id);
   const std::vector<ValueId> operands = values_of(instruction.operands);
   std::vector<Tangents> tangents(operands.size());
   std::ranges::transform(instruction.operands, tangents.begin(), [&](ValueId operand) { return tangents_[operand]; });
   const unsigned parameters = ActivityAnalysis::active_parameters(instruction, activity_);
-  values_[id] = differentiate_call(*instruction.library, parameters, operands, tangents, tangents_[id]);
+  std::vector<Tangents> results;
+  values_[id] = differentiate_call(*instruction.library, parameters, operands, tangents, results);
+  tangents_[id] = results[0];
+  if (!one_result) call_tangents_[id] = std::move(results);
 }
 
 void Writer::library_call_by_component(ValueId id) {
@@ -464,10 +472,10 @@ void Writer::library_call_by_component(ValueId id) {
         set(tangents.back(), 0, k, tangent(operand, from, k));
       if (!tangents.back().empty()) parameters |= 1u << i;
     }
-    Tangents result;
+    std::vector<Tangents> result;
     results.push_back(differentiate_call(*instruction.library, parameters, operands, tangents, result));
     for (unsigned k = 0; k < kMaxDirections; ++k)
-      set(tangents_[id], c, k, at(result, 0, k));
+      set(tangents_[id], c, k, at(result[0], 0, k));
   }
   values_[id] = b_->construct(instruction.type, std::move(results));
 }

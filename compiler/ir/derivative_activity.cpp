@@ -63,22 +63,24 @@ FunctionActivity ActivityAnalysis::analyse(const ActivityKey& key) {
 
 namespace {
 
-/// By the library's derivative.
-Activity library_call(const Function& function, const Instruction& call, const FunctionActivity& activity) {
+/// Of one of the call's results, by the library's derivative.
+Activity library_call(const Function& function, const Instruction& call, const FunctionActivity& activity,
+                      uint32_t index) {
   Activity result;
   const LibraryDerivative* derivative =
       library_derivative(*call.library, ActivityAnalysis::active_parameters(call, activity));
   if (derivative == nullptr) return result;
   const bool by_component = call.library->componentwise && is_vector(call.type);
+  const unsigned components = component_count(index == 0 ? call.type : call.library->results[index]);
   unsigned column = 0;
   for (size_t i = 0; i < call.operands.size(); ++i) {
     if ((derivative->parameters >> i & 1) == 0) continue;
     const ValueId operand = call.operands[i];
     for (unsigned c = 0; c < component_count(call.library->parameters[i]); ++c, ++column)
-      for (unsigned r = 0; r < component_count(call.type); ++r)
+      for (unsigned r = 0; r < components; ++r)
         if (by_component)
           result.add_component(r, activity.values[operand], operand_component(function, operand, r));
-        else if ((derivative->used[column] >> r & 1) != 0)
+        else if ((derivative->used[derivative->index(column, index)] >> r & 1) != 0)
           result.add_component(r, activity.values[operand], c);
   }
   return result;
@@ -120,7 +122,7 @@ Activity ActivityAnalysis::value(const Function& function, ValueId id, const Act
     result.add_component(0, operand(0), instruction.index);
     return result;
   case Op::CallLibrary:
-    return has_numbers(instruction.type) ? library_call(function, instruction, activity) : result;
+    return has_numbers(instruction.type) ? library_call(function, instruction, activity, 0) : result;
   case Op::Call: {
     const FunctionActivity& callee = of(key_of(instruction, activity));
     for (size_t i = 0; i < instruction.variables.size(); ++i)
@@ -130,6 +132,8 @@ Activity ActivityAnalysis::value(const Function& function, ValueId id, const Act
   case Op::Result:
     if (const Instruction& call = function.instructions[instruction.operands[0]]; call.op == Op::Call)
       return of(key_of(call, activity)).results[instruction.index];
+    else if (call.op == Op::CallLibrary && has_numbers(instruction.type))
+      return library_call(function, call, activity, instruction.index);
     return result;
   default:
     return result;

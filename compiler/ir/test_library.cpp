@@ -44,12 +44,9 @@ template <int N> struct Passing<Vec<N, double>> {
   }
 };
 
-template <class R> void put_results(const R& result, std::vector<Value>& out) {
-  out.push_back(Passing<R>::put(result));
-}
-template <class A, class B> void put_results(const Results<A, B>& result, std::vector<Value>& out) {
-  out.push_back(Passing<A>::put(result.first));
-  out.push_back(Passing<B>::put(result.second));
+template <class R> void put_results(const R& results, std::vector<Value>& out) {
+  for_each_result(
+      results, [&](const auto& result) { out.push_back(Passing<std::remove_cvref_t<decltype(result)>>::put(result)); });
 }
 
 template <class Row, class Type> struct Native;
@@ -63,16 +60,17 @@ template <class Row, class R, class... A> struct Native<Row, R(A...)> {
   }
 };
 
-/// The result of a derivative, and its columns.
+/// The results of a derivative, and their columns.
 template <class Row, unsigned Active, class Type> struct NativeDerivative;
 template <class Row, unsigned Active, class R, class... A> struct NativeDerivative<Row, Active, R(A...)> {
   static std::vector<Value> call(const std::vector<Value>& operands) {
     using Of = Derivative<Row, Active, double>;
     return [&]<size_t... I>(std::index_sequence<I...>) {
       const auto result = Of::of(Passing<A>::get(operands[I])...);
-      std::vector<Value> out{Passing<R>::put(Of::value(result))};
+      std::vector<Value> out;
+      put_results(Of::value(result), out);
       for (int k = 0; k < Of::columns; ++k)
-        out.push_back(Passing<R>::put(Of::column(result, k)));
+        put_results(Of::column(result, k), out);
       return out;
     }(std::index_sequence_for<A...>());
   }
