@@ -2,6 +2,7 @@
 // then the bodies that nothing calls, which are walked with unknown arguments so that their errors are reported too.
 #include "compiler/sema/context.h"
 #include "compiler/sema/entries.h"
+#include "compiler/sema/warnings.h"
 
 namespace moonshade::sema {
 
@@ -69,6 +70,7 @@ Program check(const syntax::Chunk& chunk, const Options& options, Diagnostics& d
   check_uncalled(context);
   check_memory(context, entry_works, *top);
   check_typed(context);
+  if (!diagnostics.has_errors()) check_warnings(chunk, program, diagnostics);
   return program;
 }
 

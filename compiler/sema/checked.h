@@ -15,7 +15,7 @@ struct Checked {
   Arena arena;
   Diagnostics diagnostics;
   Program program;
-  std::string text; ///< the diagnostics
+  std::string text; ///< the diagnostics, where some is an error
 
   explicit Checked(const std::string& source, const std::vector<std::string>& entries = {}) {
     const FileId file = sources.add("test.lua", source);
@@ -23,14 +23,17 @@ struct Checked {
     if (!diagnostics.has_errors()) program = check(*chunk, {entries}, diagnostics);
     std::ostringstream out;
     print_text(diagnostics, sources, out);
-    text = out.str();
+    if (diagnostics.has_errors()) text = out.str();
   }
 
   /// "3:7 unknown-name", in order of place.
-  std::vector<std::string> errors() const {
+  std::vector<std::string> errors() const { return places(Severity::Error); }
+  std::vector<std::string> warnings() const { return places(Severity::Warning); }
+
+  std::vector<std::string> places(Severity severity) const {
     std::vector<std::string> list;
     for (const Diagnostic* diagnostic : diagnostics.sorted()) {
-      if (diagnostic->severity != Severity::Error) continue;
+      if (diagnostic->severity != severity) continue;
       const LineColumn at = sources.position(diagnostic->span.file, diagnostic->span.begin);
       list.push_back(std::to_string(at.line) + ":" + std::to_string(at.column) + " " +
                      std::string(name_of(diagnostic->code)));

@@ -323,6 +323,10 @@ std::string check_agreement(const std::string& name, const std::string& text, co
     print_text(checked.diagnostics(), checked.sources(), messages);
     return messages.str();
   }
+  if (!directives.warnings.empty() || directives.no_warnings) {
+    std::string problem = compare_diagnostics(checked, Severity::Warning, directives.warnings);
+    if (!problem.empty()) return problem;
+  }
   return Agreement(checked, directives).check();
 }
 

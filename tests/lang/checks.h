@@ -1,6 +1,7 @@
 // The two kinds of test. Each gives what is wrong, one line a finding; empty where all is well.
 #pragma once
 
+#include "runtime/frontend.h"
 #include "tests/lang/directives.h"
 
 #include <string>
@@ -9,6 +10,10 @@ namespace moonshade::lang_test {
 
 /// Stock Lua and every variant of compiled code agree, and with what the program expects.
 std::string check_agreement(const std::string& name, const std::string& text, const Directives& directives);
+
+/// The places and codes of the shader's diagnostics of one severity are the expected ones.
+std::string compare_diagnostics(const CheckedShader& shader, Severity severity,
+                                const std::vector<ExpectedError>& expected);
 
 /// The program is plain Lua, and is refused with exactly the expected diagnostics.
 std::string check_refusal(const std::string& name, const std::string& text, const Directives& directives);

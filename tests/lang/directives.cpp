@@ -55,11 +55,13 @@ Directives read_directives(const std::string& text) {
         fail(number);
       else
         directives.runs.back().expected.push_back(rest);
-    } else if (take(line, "error:", rest)) {
+    } else if (const bool is_error = take(line, "error:", rest); is_error || take(line, "warning:", rest)) {
       std::istringstream words(rest);
       ExpectedError error;
       if (!(words >> error.place >> error.code)) fail(number);
-      directives.errors.push_back(error);
+      (is_error ? directives.errors : directives.warnings).push_back(error);
+    } else if (line == "-- no warnings") {
+      directives.no_warnings = true;
     } else if (take(line, "steps:", rest)) {
       directives.step_limit = std::stoull(rest);
     } else if (take(line, "near:", rest)) {

@@ -25,6 +25,8 @@ struct ExpectedError {
 struct Directives {
   std::vector<Run> runs;
   std::vector<ExpectedError> errors;
+  std::vector<ExpectedError> warnings;
+  bool no_warnings = false;
   bool mild = false;
   double near = 0; ///< how far compiled code may be from stock Lua, which differentiates by differences
   uint64_t step_limit = 1'000'000;

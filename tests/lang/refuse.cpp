@@ -1,5 +1,4 @@
 // Programs that must be refused.
-#include "runtime/frontend.h"
 #include "tests/lang/checks.h"
 
 #include <lua.hpp>
@@ -28,22 +27,26 @@ std::string list(const std::vector<ExpectedError>& errors) {
 
 } // namespace
 
-std::string check_refusal(const std::string& name, const std::string& text, const Directives& directives) {
-  if (directives.errors.empty()) return "the program expects no error\n";
-  const std::string syntax = lua_syntax_error(text);
-  if (!syntax.empty()) return "stock Lua does not take it either: " + syntax + "\n";
-  const CheckedShader shader(name, text);
+std::string compare_diagnostics(const CheckedShader& shader, Severity severity,
+                                const std::vector<ExpectedError>& expected) {
   std::vector<ExpectedError> found;
   for (const Diagnostic* diagnostic : shader.diagnostics().sorted()) {
-    if (diagnostic->severity != Severity::Error) continue;
+    if (diagnostic->severity != severity) continue;
     const LineColumn place = shader.sources().position(diagnostic->span.file, diagnostic->span.begin);
     found.push_back(
         {std::to_string(place.line) + ":" + std::to_string(place.column), std::string(name_of(diagnostic->code))});
   }
-  if (found == directives.errors) return "";
+  if (found == expected) return "";
   std::ostringstream messages;
   print_text(shader.diagnostics(), shader.sources(), messages);
-  return "  expected:\n" + list(directives.errors) + "  found:\n" + list(found) + messages.str();
+  return "  expected:\n" + list(expected) + "  found:\n" + list(found) + messages.str();
+}
+
+std::string check_refusal(const std::string& name, const std::string& text, const Directives& directives) {
+  if (directives.errors.empty()) return "the program expects no error\n";
+  const std::string syntax = lua_syntax_error(text);
+  if (!syntax.empty()) return "stock Lua does not take it either: " + syntax + "\n";
+  return compare_diagnostics(CheckedShader(name, text), Severity::Error, directives.errors);
 }
 
 } // namespace moonshade::lang_test

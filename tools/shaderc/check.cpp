@@ -39,7 +39,6 @@ std::string only_missing_entry(const Diagnostics& diagnostics) {
 } // namespace
 
 void Reporter::add(const Diagnostics& diagnostics, const SourceSet& sources) {
-  if (diagnostics.empty()) return;
   if (options_.diagnostics == DiagnosticFormat::Text)
     return print_text(diagnostics, sources, std::cerr, options_.colour);
   if (options_.diagnostics == DiagnosticFormat::Sarif) return sarif_.add(diagnostics, sources);
@@ -49,15 +48,15 @@ void Reporter::add(const Diagnostics& diagnostics, const SourceSet& sources) {
 }
 
 void Reporter::finish() {
-  if (!sarif_.empty()) sarif_.print(std::cerr);
-  sarif_ = {};
-  if (json_.empty()) return;
+  if (finished_) return;
+  finished_ = true;
+  if (options_.diagnostics == DiagnosticFormat::Sarif) sarif_.print(std::cerr);
+  if (options_.diagnostics != DiagnosticFormat::Json) return;
   nlohmann::ordered_json all = nlohmann::ordered_json::array();
   for (const std::string& text : json_)
     for (auto& diagnostic : nlohmann::ordered_json::parse(text))
       all.push_back(std::move(diagnostic));
   std::cerr << all.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) << "\n";
-  json_.clear();
 }
 
 CheckedFile check_file(const std::string& path, const Options& options, Reporter& reporter) {

@@ -9,18 +9,20 @@
 
 namespace moonshade::shaderc {
 
-/// Prints diagnostics of several files in one form; JSON is one array for all of them, SARIF one log, at the end.
+/// Prints diagnostics of several files in one form; JSON is one array for all of them, SARIF one log, at the end; both
+/// also where there is nothing to say.
 class Reporter {
 public:
   explicit Reporter(const Options& options) : options_(options) {}
   void add(const Diagnostics& diagnostics, const SourceSet& sources);
-  /// Once, at the end of all files.
+  /// At the end of all files; a second call does nothing.
   void finish();
 
 private:
   const Options& options_;
   std::vector<std::string> json_; // one array a file
   SarifLog sarif_;
+  bool finished_ = false;
 };
 
 struct CheckedFile {

@@ -1,0 +1,4 @@
+function height(p)
+  local unused = p.y
+  return p.x
+end
