@@ -46,7 +46,7 @@ Preparation prepare(Scene scene, ShaderSource& shaders, const Overrides& overrid
   prepared->compile_seconds = seconds_since(start);
   if (!result.error.empty()) return result;
   start = std::chrono::steady_clock::now();
-  prepared->geometry = Geometry::build(prepared->scene, result.error);
+  prepared->geometry = Geometry::build(prepared->scene, result.error, prepared->materials.passable());
   prepared->geometry_seconds = seconds_since(start);
   if (!prepared->geometry) return result.machine_at_fault = true, std::move(result);
   prepared->lights =

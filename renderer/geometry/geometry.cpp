@@ -88,9 +88,23 @@ void sphere_intersect(const RTCIntersectFunctionNArguments* args) {
 
 void sphere_occluded(const RTCOccludedFunctionNArguments* args) {
   const auto& placed = *static_cast<const PlacedObject*>(args->geometryUserPtr);
+  if (placed.passable && placed.passable[placed.material_of(0)]) return;
   for (unsigned i = 0; i < args->N; ++i)
     if (args->valid[i] && sphere_distance(placed, args->ray, args->N, i) != kInfinity)
       RTCRayN_tfar(args->ray, args->N, i) = -kInfinity;
+}
+
+/// Lets shadow rays through triangles that do not block them.
+void keep_opaque(const RTCFilterFunctionNArguments* args) {
+  const auto& placed = *static_cast<const PlacedObject*>(args->geometryUserPtr);
+  for (unsigned i = 0; i < args->N; ++i)
+    if (args->valid[i] && placed.passable[placed.material_of(RTCHitN_primID(args->hit, args->N, i))])
+      args->valid[i] = 0;
+}
+
+bool lets_through(const PlacedObject& placed) {
+  return placed.passable && std::any_of(placed.object->materials.begin(), placed.object->materials.end(),
+                                        [&](uint32_t material) { return placed.passable[material] != 0; });
 }
 
 void set_ray(RTCRay& out, const Ray& ray) {
@@ -121,11 +135,13 @@ bool intersect_sphere(const PlacedObject& placed, const Vec3& origin, const Vec3
   return true;
 }
 
-std::unique_ptr<Geometry> Geometry::build(const Scene& scene, std::string& error) {
+std::unique_ptr<Geometry> Geometry::build(const Scene& scene, std::string& error, std::vector<uint8_t> passable) {
   std::unique_ptr<Geometry> geometry(new Geometry);
+  geometry->passable_ = std::move(passable);
   geometry->objects_.reserve(scene.objects.size()); // Embree keeps pointers to its elements
   for (const Object& object : scene.objects) {
     geometry->objects_.push_back(place(object));
+    if (!geometry->passable_.empty()) geometry->objects_.back().passable = geometry->passable_.data();
     geometry->bounds_.add(bounds_of(object));
   }
   DefaultFloatEnvironment restore; // committing flushes denormals in this thread
@@ -152,6 +168,8 @@ bool Geometry::commit(std::string& error) {
                                  sizeof(Vec3), placed.vertices.size() - 1);
       rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, triangles.data(), 0,
                                  sizeof(Mesh::Corners), triangles.size());
+      rtcSetGeometryUserData(geometry, &placed);
+      if (lets_through(placed)) rtcSetGeometryOccludedFilterFunction(geometry, keep_opaque);
     } else {
       rtcSetGeometryUserPrimitiveCount(geometry, 1);
       rtcSetGeometryUserData(geometry, &placed);

@@ -47,6 +47,8 @@ struct PlacedObject {
   bool identity = false;
   float scale = 1;  ///< mean scale of the object's matrix
   float extent = 1; ///< largest side of the object's box in object space
+  /// By material: whether shadow rays look through it; null: none is.
+  const uint8_t* passable = nullptr;
 
   uint32_t material_of(uint32_t primitive) const {
     if (object->shape != Shape::Mesh || object->mesh->material_slots.empty()) return object->materials[0];
@@ -56,8 +58,9 @@ struct PlacedObject {
 
 class Geometry {
 public:
-  /// Keeps a reference to the scene's objects. Null and an error where Embree fails (memory).
-  static std::unique_ptr<Geometry> build(const Scene& scene, std::string& error);
+  /// Keeps a reference to the scene's objects. Null and an error where Embree fails (memory). `passable`, by material:
+  /// surfaces that `occluded` looks through; empty: none.
+  static std::unique_ptr<Geometry> build(const Scene& scene, std::string& error, std::vector<uint8_t> passable = {});
   ~Geometry();
   Geometry(const Geometry&) = delete;
   Geometry& operator=(const Geometry&) = delete;
@@ -66,7 +69,7 @@ public:
   const Box& bounds() const { return bounds_; }
 
   void closest(std::span<const Ray> rays, Hit* hits) const;
-  /// 1 where something lies between near and far.
+  /// 1 where something opaque lies between near and far.
   void occluded(std::span<const Ray> rays, uint8_t* blocked) const;
 
   SurfacePoint surface(const Ray& ray, const Hit& hit) const;
@@ -78,6 +81,7 @@ private:
   SurfacePoint triangle_point(const PlacedObject& placed, const Ray& ray, const Hit& hit) const;
   SurfacePoint sphere_point(const PlacedObject& placed, const Ray& ray, const Hit& hit) const;
 
+  std::vector<uint8_t> passable_;
   std::vector<PlacedObject> objects_;
   Box bounds_;
   std::unique_ptr<Embree> embree_;

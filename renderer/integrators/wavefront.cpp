@@ -8,16 +8,13 @@
 namespace moonshade::renderer {
 
 static const Vec3 kFaultColor(1, 0, 1);
+static constexpr uint32_t kRouletteFrom = 5;
+static constexpr uint32_t kMostSegments = 4096; // of a path, sheets without end included
 
 Wavefront::Wavefront(const PreparedScene& scene, size_t capacity)
     : scene_(scene), settings_(scene.scene.settings), camera_(scene.scene.camera, settings_.width, settings_.height),
-      batch_(capacity, settings_.time, settings_.frame), paths_(capacity), rays_(capacity), hits_(capacity),
-      hit_material_(capacity), path_of_(capacity), hit_of_(capacity), points_(capacity), targets_(capacity),
-      blocked_(capacity) {
+      shader_(scene, capacity), shadows_(scene, capacity), paths_(capacity), rays_(capacity), hits_(capacity) {
   active_.reserve(capacity);
-  shadow_rays_.reserve(capacity);
-  shadows_.reserve(capacity);
-  run_start_.resize(scene.materials.size() + 1);
 }
 
 void Wavefront::run(const Task& task, const SampleOutputs& out) {
@@ -29,10 +26,10 @@ void Wavefront::run(const Task& task, const SampleOutputs& out) {
   while (!active_.empty()) {
     trace();
     stats_.trace_seconds += lap();
-    sort_by_material();
-    for (uint32_t material = 0; material < scene_.materials.size(); ++material)
-      if (run_start_[material] != run_start_[material + 1])
-        shade_run(material, run_start_[material], run_start_[material + 1]);
+    shader_.shade(faults_, stats_, [&](const CompiledMaterial& material, size_t begin, size_t end) {
+      if (first_) note_first_hits(begin, end);
+      scatter(material, begin, end);
+    });
     std::erase_if(active_, [&](uint32_t index) { return !paths_[index].alive; });
     stats_.shade_seconds += lap();
   }
@@ -62,6 +59,15 @@ void Wavefront::trace() {
     rays_[k] = paths_[active_[k]].ray;
   scene_.geometry->closest({rays_.data(), active_.size()}, hits_.data());
   stats_.rays += active_.size();
+  shader_.clear();
+  for (size_t k = 0; k < active_.size(); ++k) {
+    Path& path = paths_[active_[k]];
+    ++path.segments;
+    if (hits_[k].found())
+      shader_.add(active_[k], path.ray, hits_[k], path.width, path.spread);
+    else
+      leave(path);
+  }
 }
 
 /// What a ray sees that meets nothing.
@@ -73,50 +79,7 @@ void Wavefront::leave(Path& path) {
   path.radiance += path.throughput * radiance * weight;
 }
 
-/// A counting sort; within a material, hits keep the order of their paths.
-void Wavefront::sort_by_material() {
-  std::fill(run_start_.begin(), run_start_.end(), 0);
-  for (size_t k = 0; k < active_.size(); ++k) {
-    Path& path = paths_[active_[k]];
-    ++path.segments;
-    if (!hits_[k].found()) {
-      leave(path);
-      continue;
-    }
-    hit_material_[k] = scene_.geometry->objects()[hits_[k].object].material_of(hits_[k].primitive);
-    ++run_start_[hit_material_[k] + 1];
-  }
-  for (size_t m = 1; m < run_start_.size(); ++m)
-    run_start_[m] += run_start_[m - 1];
-  for (size_t k = 0; k < active_.size(); ++k) {
-    if (!hits_[k].found()) continue;
-    uint32_t at = run_start_[hit_material_[k]]++;
-    path_of_[at] = active_[k];
-    hit_of_[at] = hits_[k];
-  }
-  for (size_t m = run_start_.size() - 1; m > 0; --m)
-    run_start_[m] = run_start_[m - 1];
-  run_start_[0] = 0;
-}
-
-void Wavefront::shade_run(uint32_t index, size_t begin, size_t end) {
-  const CompiledMaterial& material = scene_.materials[index];
-  for (size_t k = begin; k < end; ++k) {
-    Path& path = paths_[path_of_[k]];
-    points_[k] = scene_.geometry->surface(path.ray, hit_of_[k]);
-    const PlacedObject& placed = scene_.geometry->objects()[hit_of_[k].object];
-    path.width += path.spread * points_[k].distance;
-    targets_[k] = {&placed, &points_[k], path.width / placed.scale};
-    fill_inputs(material.needs, k);
-  }
-  stats_.shading_points += end - begin;
-  double shaders_start = thread_seconds();
-  scene_.materials.bend(material, batch_, begin, end - begin, targets_.data() + begin, faults_);
-  for (size_t k = begin; k < end; ++k)
-    fill_normal(k);
-  scene_.materials.shade(material, batch_, begin, end - begin, faults_);
-  stats_.shader_seconds += thread_seconds() - shaders_start;
-  if (first_) note_first_hits(index, begin, end);
+void Wavefront::scatter(const CompiledMaterial& material, size_t begin, size_t end) {
   if (settings_.integrator == IntegratorKind::Path)
     scatter_path(material, begin, end);
   else
@@ -124,106 +87,90 @@ void Wavefront::shade_run(uint32_t index, size_t begin, size_t end) {
   trace_shadows();
 }
 
-namespace {
-
-void store(ShadingBatch& batch, Channel channel, size_t k, const Vec3& v) {
-  for (int c = 0; c < 3; ++c)
-    batch.inputs[size_t(channel) + size_t(c)][k] = v[c];
-}
-
-constexpr uint32_t mask_of(Channel channel, unsigned components) { return ((1u << components) - 1) << channel; }
-
-} // namespace
-
-/// Whatever the material's shaders read, but for the final normal.
-void Wavefront::fill_inputs(uint32_t needs, size_t k) {
-  const SurfacePoint& s = points_[k];
-  const Vec3& incident = paths_[path_of_[k]].ray.direction;
-  bool backface = glm::dot(s.geometric_normal, incident) > 0;
-  float side = backface ? -1.0f : 1.0f;
-  batch_.backface[k] = backface;
-  batch_.id[k] = int64_t(hit_of_[k].object);
-  if (needs == 0) return;
-  store(batch_, kLocal, k, s.local);
-  store(batch_, kWorld, k, s.world);
-  store(batch_, kNormal, k, s.shading_normal * side);
-  if (needs & mask_of(kGeometric, 3)) store(batch_, kGeometric, k, s.geometric_normal * side);
-  if (needs & mask_of(kIncident, 3)) store(batch_, kIncident, k, incident);
-  if (needs & mask_of(kUv, 2)) batch_.inputs[kUv][k] = s.uv.x, batch_.inputs[kUv + 1][k] = s.uv.y;
-  if (needs & mask_of(kDpdu, 3)) store(batch_, kDpdu, k, s.dpdu);
-  if (needs & mask_of(kDpdv, 3)) store(batch_, kDpdv, k, s.dpdv);
-  batch_.inputs[kFootprint][k] = targets_[k].footprint;
-}
-
-/// Both normals towards the viewer, from here on; the shading normal is the bumped one.
-void Wavefront::fill_normal(size_t k) {
-  SurfacePoint& s = points_[k];
-  float side = batch_.backface[k] ? -1.0f : 1.0f;
-  s.geometric_normal *= side;
-  s.shading_normal = turned_to_viewer(s.shading_normal * side, s.geometric_normal, -paths_[path_of_[k]].ray.direction);
-  store(batch_, kNormal, k, s.shading_normal);
-}
-
-SurfaceValues Wavefront::values_at(size_t k) const {
-  auto triple = [&](Slot slot) {
-    size_t at = kResultOffset[size_t(slot)];
-    return Vec3(batch_.results[at][k], batch_.results[at + 1][k], batch_.results[at + 2][k]);
-  };
-  auto single = [&](Slot slot) { return batch_.results[kResultOffset[size_t(slot)]][k]; };
-  return {triple(Slot::Color),     triple(Slot::Reflectance), triple(Slot::Emission),
-          single(Slot::Roughness), single(Slot::Metallic),    single(Slot::Ior)};
-}
-
 /// A point without values shows magenta where the camera sees it, and ends the path with nothing anywhere else.
 bool Wavefront::end_if_faulted(Path& path, size_t k) {
-  if (!batch_.faulted[k]) return false;
+  if (!shader_.faulted(k)) return false;
   path.alive = false;
   path.faulted = true;
-  if (path.segments == 1) path.radiance = kFaultColor;
+  if (path.bounces == 0) path.radiance = kFaultColor;
   return true;
 }
 
-Bsdf Wavefront::bsdf_at(const Path& path, size_t k, const SurfaceValues& values) const {
-  return Bsdf(values, points_[k].shading_normal, points_[k].geometric_normal, -path.ray.direction);
+/// Chance decides where the surface is partly there.
+bool Wavefront::passes(Path& path, size_t k, const SurfaceValues& values) {
+  if (values.opacity >= 1 || path.sampler.one(dimension(path, kOpacity)) < values.opacity) return false;
+  go_straight(path, k);
+  return true;
+}
+
+/// On the way through a solid.
+void Wavefront::absorb(Path& path, const CompiledMaterial& material, size_t k, const SurfaceValues& values) const {
+  if (!shader_.backface(k) || material.thin || values.transmission <= 0 || is_black(material.absorption)) return;
+  path.throughput *= glm::exp(-material.absorption * shader_.point(k).distance);
 }
 
 void Wavefront::follow(Path& path, size_t k, const Vec3& direction, float spread) {
-  const SurfacePoint& s = points_[k];
-  path.ray = {s.world + s.geometric_normal * s.offset, 0, direction, kInfinity};
+  const SurfacePoint& s = shader_.point(k);
+  float side = glm::dot(direction, s.geometric_normal) < 0 ? -1.0f : 1.0f;
+  path.ray = {s.world + s.geometric_normal * (s.offset * side), 0, direction, kInfinity};
+  path.from = path.ray.origin;
+  path.travelled = 0;
+  path.width = shader_.width(k);
   path.spread += spread;
+  ++path.bounces;
+}
+
+void Wavefront::go_straight(Path& path, size_t k) {
+  const SurfacePoint& s = shader_.point(k);
+  path.ray.origin = s.world - s.geometric_normal * s.offset;
+  path.travelled += s.distance;
+  path.width = shader_.width(k);
+  path.alive = path.segments < kMostSegments;
+}
+
+/// Russian roulette, by what the path can still bring (within glass, throughputs are less by the square of its index).
+bool Wavefront::survives(Path& path) {
+  float brightest = max_component(path.throughput);
+  if (!(brightest > 0)) return false;
+  if (path.bounces + 1 < kRouletteFrom) return true;
+  float survival = std::min(0.95f, brightest * path.eta2);
+  if (path.sampler.one(dimension(path, kRoulette)) >= survival) return false;
+  path.throughput /= survival;
+  return true;
 }
 
 void Wavefront::add_shadow(uint32_t path, size_t k, const LightSample& light, const Vec3& contribution) {
-  if (shadows_.size() == shadows_.capacity()) trace_shadows();
-  const SurfacePoint& s = points_[k];
+  if (shadows_.full()) trace_shadows();
+  const SurfacePoint& s = shader_.point(k);
   // The end stops short of the light's own surface.
   float far = light.distance == kInfinity ? kInfinity : light.distance * (1 - 1e-4f) - s.offset;
-  shadow_rays_.push_back({s.world + s.geometric_normal * s.offset, 0, light.direction, far});
-  shadows_.push_back({path, contribution});
+  float side = glm::dot(light.direction, s.geometric_normal) < 0 ? -1.0f : 1.0f;
+  shadows_.add({{s.world + s.geometric_normal * (s.offset * side), 0, light.direction, far},
+                path,
+                contribution,
+                shader_.width(k),
+                paths_[path].spread});
 }
 
 void Wavefront::trace_shadows() {
   if (shadows_.empty()) return;
   stats_.shade_seconds += lap();
-  scene_.geometry->occluded(shadow_rays_, blocked_.data());
-  stats_.rays += shadows_.size();
-  stats_.trace_seconds += lap();
-  for (size_t k = 0; k < shadows_.size(); ++k)
-    if (!blocked_[k]) paths_[shadows_[k].path].radiance += shadows_[k].contribution;
-  shadow_rays_.clear();
-  shadows_.clear();
+  shadows_.trace(faults_, stats_, [&](uint32_t path, const Vec3& light) { paths_[path].radiance += light; });
+  lap();
 }
 
 /// What paths see that have just left the camera. Paths are numbered as the task's samples are.
-void Wavefront::note_first_hits(uint32_t material, size_t begin, size_t end) {
+void Wavefront::note_first_hits(size_t begin, size_t end) {
   for (size_t k = begin; k < end; ++k) {
-    if (paths_[path_of_[k]].segments != 1) continue;
-    const SurfacePoint& s = points_[k];
-    SurfaceValues values = values_at(k);
+    uint32_t owner = shader_.owner(k);
+    if (paths_[owner].segments != 1) continue;
+    const SurfacePoint& s = shader_.point(k);
+    const Hit& hit = shader_.hit(k);
+    SurfaceValues values = shader_.values(k);
     Vec3 albedo = values.color * (Vec3(1) - values.reflectance) + values.reflectance;
-    if (batch_.faulted[k]) albedo = kFaultColor;
-    first_[path_of_[k]] = {albedo,      s.shading_normal, s.world, camera_.depth(s.world), hit_of_[k].object + 1,
-                           material + 1};
+    if (shader_.faulted(k)) albedo = kFaultColor;
+    uint32_t material = scene_.geometry->objects()[hit.object].material_of(hit.primitive);
+    first_[owner] = {albedo, s.shading_normal, s.world, camera_.depth(s.world), hit.object + 1, material + 1};
   }
 }
 

@@ -1,16 +1,19 @@
-// How a surface scatters light:
+// How a surface scatters light; docs/materials.md has the same as formulas:
 //
-//     f = (1 - R) [ (1 - metallic) diffuse + GGX ] + R mirror
+//     f = (1 - R) [ metallic M + (1 - metallic) ( (1 - transmission) (C + D) + transmission T ) ] + R mirror
 //
-// R = reflectance (the paper's reflect shader); diffuse = color / pi, weakened by what the coat reflects on the way in
-// and out; GGX with alpha = roughness^2, height-correlated Smith masking and Schlick's Fresnel, at normal incidence
-// ((ior - 1) / (ior + 1))^2, or `color` for metals, scaled for light that bounces more than once between facets.
+// R = reflectance (the paper's reflect shader); M a metal and C a dielectric coat over the diffuse D; T glass, solid or
+// thin. M, C and T are microfacet lobes with GGX and alpha = roughness^2, scaled for light that bounces more than once
+// between facets (Turquin 2019); D fills up what the coat leaves, so that white surfaces lose nothing. Below
+// kSmoothAlpha they are ideal: one direction, which no light sampling finds.
 //
-// Shading normals differ from geometric ones (smooth meshes, bump mapping). A specular direction below the geometric
-// surface is folded back to its side (the density folds with it), so that bumps show no black spots; diffuse light
-// fades towards the geometric horizon (Chiang et al. 2019, "Taming the Shadow Terminator").
+// Shading normals differ from geometric ones (smooth meshes, bump mapping). A specular direction on the wrong side of
+// the geometric surface is folded back (the density folds with it), so that bumps show no black spots; diffuse light
+// fades towards the geometric horizon (Chiang et al. 2019, "Taming the Shadow Terminator") and is scaled by what that
+// takes on average.
 #pragma once
 
+#include "renderer/materials/ggx.h"
 #include "renderer/math.h"
 
 namespace moonshade::renderer {
@@ -22,16 +25,28 @@ Vec3 turned_to_viewer(const Vec3& normal, const Vec3& geometric_normal, const Ve
 /// Values of one point's slots, in range.
 struct SurfaceValues {
   Vec3 color{0.8f}, reflectance{0}, emission{0};
-  float roughness = 0.5f, metallic = 0, ior = 1.5f;
+  float roughness = 0.5f, metallic = 0, ior = 1.5f, transmission = 0, opacity = 1;
+};
+
+/// Which part of a BSDF is meant.
+enum LobeSet : uint8_t { kDiffuseLobe = 1, kFacetLobe = 2, kMirrorLobe = 4, kAllLobes = 7 };
+
+/// Of which side of what kind of surface, and of what is carried: radiance to a camera, or importance's dual, photons.
+struct SurfaceSide {
+  bool backface = false; ///< within a solid, looking out
+  bool thin = false;
+  bool photons = false; ///< `out` leads to where they come from
 };
 
 struct BsdfSample {
   Vec3 direction{0};
-  Vec3 weight{0}; ///< f · cos / pdf
-  float pdf = 0;  ///< of the lobes with extent; 0 for the mirror
-  bool mirror = false;
+  Vec3 weight{0};        ///< f · cos / pdf
+  float pdf = 0;         ///< of the lobes with extent; 0 for the mirror
+  bool mirror = false;   ///< from a lobe without extent
+  bool straight = false; ///< through a thin sheet, unbent: the path goes on as if nothing were there
   bool valid = false;
   float spread = 0; ///< how much wider the footprint grows per distance
+  float eta2 = 1;   ///< by which square of indices `weight` was divided at an interface
 };
 
 struct BsdfValue {
@@ -43,37 +58,65 @@ class Bsdf {
 public:
   /// All vectors unit; both normals face the viewer `out`. The shading normal is turned just enough for the viewer to
   /// see its front.
-  Bsdf(const SurfaceValues& values, const Vec3& shading_normal, const Vec3& geometric_normal, const Vec3& out);
+  Bsdf(const SurfaceValues& values, const Vec3& shading_normal, const Vec3& geometric_normal, const Vec3& out,
+       SurfaceSide side = {});
 
-  /// f times the cosine, and the density of `sample`, without the mirror.
-  BsdfValue evaluate(const Vec3& in) const;
-  BsdfSample sample(float choice, const Vec2& u) const;
+  /// f times the cosine, and the density of `sample` from the same lobes, without those that have no extent.
+  BsdfValue evaluate(const Vec3& in, uint8_t lobes = kAllLobes) const;
+  BsdfSample sample(float choice, const Vec2& u, uint8_t lobes = kAllLobes) const;
 
   /// The mirror's direction, on the viewer's side of the surface.
   Vec3 mirror_direction() const;
-  const Vec3& reflectance() const { return reflectance_; }
+  /// Light that goes straight through: of a smooth thin sheet.
+  Vec3 straight_through() const;
   /// Ambient light reflected to the viewer: `around_normal` and `around_mirror` are mean radiances from there.
-  Vec3 ambient(const Vec3& around_normal, const Vec3& around_mirror) const {
-    Vec3 glossy = f0_ + (Vec3(f90_) - f0_) * schlick_power(n_dot_v_);
-    Vec3 diffuse = diffuse_ * (1 - fresnel(n_dot_v_, f0_dielectric_));
-    return (Vec3(1) - reflectance_) * (diffuse * around_normal + glossy * around_mirror);
+  Vec3 ambient(const Vec3& around_normal, const Vec3& around_mirror) const;
+  /// The diffuse part's colour, weakened by what the coat reflects towards the viewer.
+  Vec3 diffuse_albedo() const { return keep_ * diffuse_ * (1 - coat_albedo_v_); }
+
+  bool has_extent(uint8_t lobes = kAllLobes) const {
+    Probabilities p = probabilities(lobes);
+    return p.diffuse > 0 || (p.facet > 0 && !smooth_);
   }
-  bool has_extent() const { return diffuse_probability_ + glossy_probability_ > 0; }
+  bool has(uint8_t lobes) const {
+    Probabilities p = probabilities(lobes);
+    return p.diffuse + p.facet + p.mirror > 0;
+  }
+  bool smooth() const { return smooth_; }
+  bool transmits() const { return glass_ > 0; }
+  float alpha() const { return alpha_; }
 
 private:
-  static float schlick_power(float cosine) {
-    float m = std::clamp(1 - cosine, 0.0f, 1.0f), m2 = m * m;
-    return m2 * m2 * m;
-  }
-  static float fresnel(float cosine, float f0);
-  float glossy_pdf_and_value(const Vec3& in, Vec3& f_cos) const;
+  struct Probabilities {
+    float mirror, diffuse, facet;
+  };
+  struct Scales {
+    Vec3 metal;
+    float coat, glass;
+  };
+  Probabilities probabilities(uint8_t lobes) const;
+  Scales scales(float cosine, float eta_glass) const;
+  Vec3 reflected(float cosine, const Scales& scales) const;
+  Vec3 transmitted(float cosine, float glass_scale) const;
+  float reflect_share(float cosine) const;
+  void reflect_lobe(const Vec3& in, BsdfValue& value) const;
+  void thin_lobe(const Vec3& in, BsdfValue& value) const;
+  void solid_lobe(const Vec3& in, BsdfValue& value) const;
+  void diffuse_lobe(const Vec3& in, float side, BsdfValue& value) const;
+  float photon_factor(const Vec3& in, float cosine) const;
+  BsdfSample sample_smooth(float probability, float choice) const;
+  bool facet_direction(float choice, const Vec2& u, Vec3& direction) const;
   Vec3 folded(const Vec3& direction) const { return direction - ng_ * (2 * glm::dot(direction, ng_)); }
 
   Frame frame_;
   Vec3 ng_, out_, local_out_;
-  Vec3 reflectance_, diffuse_, f0_, compensation_;
-  float f0_dielectric_, f90_, alpha_, n_dot_v_;
-  float mirror_probability_ = 0, diffuse_probability_ = 0, glossy_probability_ = 0;
+  Vec3 reflectance_, keep_, color_, diffuse_, glass_tint_{1};
+  float metal_, coat_, glass_, ior_, eta_, alpha_, n_dot_v_;
+  CoatAlbedo coat_albedo_;
+  float coat_albedo_v_ = 0, diffuse_scale_ = 1, ng_dot_n_ = 1;
+  Scales scales_{};
+  Probabilities weight_{};
+  bool smooth_ = false, thin_ = false, photons_ = false;
 };
 
 } // namespace moonshade::renderer

@@ -10,7 +10,7 @@ namespace moonshade::renderer {
 
 namespace {
 
-constexpr std::string_view kNotYet[] = {"transmission", "opacity", "density", "environment"};
+constexpr std::string_view kNotYet[] = {"density", "environment"};
 
 /// Everything needed to load one material's shaders.
 class MaterialLoader {
@@ -122,6 +122,8 @@ std::string MaterialLoader::from_whole_file(CompiledMaterial& compiled, std::str
 std::string MaterialLoader::load(CompiledMaterial& compiled, std::string& warnings) {
   compiled.bump = material_.bump;
   compiled.emits_outward_only = material_.emits_outward_only;
+  compiled.thin = material_.thin;
+  compiled.absorption = material_.absorption;
   for (size_t s = 0; s < kSlotCount; ++s) {
     compiled.constants[s] = material_.values[s].value_or(slot_infos()[s].default_value);
     if (material_.shaders[s].empty()) continue;
@@ -208,9 +210,17 @@ std::string MaterialSet::build(const Scene& scene, ShaderSource& source,
     if (found != overrides.end() && !loader.uses_shaders())
       return "-D: the material '" + material.name + "' has no shader, so no parameter '" +
              found->second.begin()->first + "'";
+    materials.any_passable_ |= compiled.passable();
     materials.materials_.push_back(std::move(compiled));
   }
   return "";
+}
+
+std::vector<uint8_t> MaterialSet::passable() const {
+  std::vector<uint8_t> result;
+  for (const CompiledMaterial& m : materials_)
+    result.push_back(m.passable());
+  return result;
 }
 
 std::vector<std::optional<Vec3>> MaterialSet::constant_emission() const {

@@ -50,6 +50,14 @@ struct CompiledMaterial {
   BumpMode bump = BumpMode::Gradient;
   uint32_t needs = 0; ///< channels that any of its entries reads
   bool emits_outward_only = false;
+  bool thin = false;
+  Vec3 absorption{0};
+
+  /// Light may pass straight through: shadows have to look twice.
+  bool passable() const { return may_differ(Slot::Opacity, 1) || (thin && may_differ(Slot::Transmission, 0)); }
+  bool may_differ(Slot slot, float value) const {
+    return calls[size_t(slot)].has_value() || constants[size_t(slot)].x != value;
+  }
 };
 
 /// A surface point's bent normal, outward.
@@ -69,6 +77,9 @@ public:
 
   size_t size() const { return materials_.size(); }
   const CompiledMaterial& operator[](size_t index) const { return materials_[index]; }
+  /// By material: whether light may pass straight through.
+  std::vector<uint8_t> passable() const;
+  bool any_passable() const { return any_passable_; }
   /// Emission that is a constant, by material.
   std::vector<std::optional<Vec3>> constant_emission() const;
   /// Lanes of the compiled shaders; 1 where there are none.
@@ -89,6 +100,7 @@ private:
 
   std::vector<CompiledMaterial> materials_;
   unsigned width_ = 1;
+  bool any_passable_ = false;
 };
 
 } // namespace moonshade::renderer

@@ -29,8 +29,8 @@ enum Channel : uint8_t {
 };
 
 /// Float arrays of a batch's results, by slot; the components of a colour follow each other.
-inline constexpr std::array<uint8_t, kSlotCount> kResultOffset = {0, 3, 6, 7, 8, 11};
-inline constexpr size_t kResultCount = 12;
+inline constexpr std::array<uint8_t, kSlotCount> kResultOffset = {0, 3, 6, 7, 8, 11, 12, 13};
+inline constexpr size_t kResultCount = 14;
 
 struct ShadingBatch {
   explicit ShadingBatch(size_t capacity, double time, int64_t frame);

@@ -156,8 +156,10 @@ void SceneBuilder::material(SceneFields& fields, const SceneCall& call, size_t i
     slot(fields, m, Slot(s));
   if (std::string name = fields.text("height"); !name.empty()) m.height_shader = file(fields, "height", name);
   m.bump = BumpMode(fields.choice("bump", kBumps));
+  m.thin = fields.boolean("thin", false);
+  m.absorption = fields.color("absorption", Vec3(0));
   parameters(fields, m);
-  for (const char* later : {"transmission", "opacity", "density", "anisotropy"})
+  for (const char* later : {"density", "anisotropy"})
     if (call.fields.contains(later))
       fields.fail("'" + std::string(later) + "' is not available yet"), fields.find(later);
   const auto& emission = m.values[size_t(Slot::Emission)];

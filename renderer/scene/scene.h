@@ -32,8 +32,8 @@ struct Mesh {
 };
 
 /// What a material takes from a shader entry or a constant.
-enum class Slot : uint8_t { Color, Reflectance, Roughness, Metallic, Emission, Ior };
-inline constexpr size_t kSlotCount = 6;
+enum class Slot : uint8_t { Color, Reflectance, Roughness, Metallic, Emission, Ior, Transmission, Opacity };
+inline constexpr size_t kSlotCount = 8;
 
 struct SlotInfo {
   const char* name;    ///< entry of a shader, field of a scene's material
@@ -47,7 +47,9 @@ inline const std::array<SlotInfo, kSlotCount>& slot_infos() {
                                                           {"roughness", 1, Vec3(0.5f)},
                                                           {"metallic", 1, Vec3(0)},
                                                           {"emission", 3, Vec3(0)},
-                                                          {"ior", 1, Vec3(1.5f)}}};
+                                                          {"ior", 1, Vec3(1.5f)},
+                                                          {"transmission", 1, Vec3(0)},
+                                                          {"opacity", 1, Vec3(1)}}};
   return infos;
 }
 
@@ -67,6 +69,8 @@ struct Material {
   std::map<std::string, Constant> parameters;
   BumpMode bump = BumpMode::Gradient;
   bool emits_outward_only = false; ///< an area light's
+  bool thin = false;               ///< a sheet: what is transmitted goes on unbent
+  Vec3 absorption{0};              ///< of a solid that transmits, per unit of length in world space
 };
 
 enum class Shape : uint8_t { Mesh, Sphere };

@@ -1,0 +1,68 @@
+#include "renderer/integrators/shadow_tracer.h"
+
+namespace moonshade::renderer {
+
+static constexpr int kMostSurfaces = 256; // in a row that let light through
+
+ShadowTracer::ShadowTracer(const PreparedScene& scene, size_t capacity)
+    : scene_(scene), capacity_(capacity), rays_(capacity), blocked_(capacity) {
+  shadows_.reserve(capacity);
+  if (!scene.materials.any_passable()) return;
+  shader_ = std::make_unique<HitShader>(scene, capacity);
+  hits_.resize(capacity);
+}
+
+void ShadowTracer::arrive(FaultLog& faults, WorkerStats& stats) {
+  double start = thread_seconds();
+  for (size_t k = 0; k < shadows_.size(); ++k)
+    rays_[k] = shadows_[k].ray;
+  scene_.geometry->occluded({rays_.data(), shadows_.size()}, blocked_.data());
+  stats.rays += shadows_.size();
+  for (size_t k = 0; k < shadows_.size(); ++k)
+    if (blocked_[k]) shadows_[k].contribution = Vec3(0);
+  stats.trace_seconds += thread_seconds() - start;
+  if (shader_) pass_through(faults, stats);
+}
+
+/// Nothing opaque is in the way of those that are left.
+void ShadowTracer::pass_through(FaultLog& faults, WorkerStats& stats) {
+  active_.clear();
+  for (uint32_t k = 0; k < shadows_.size(); ++k)
+    if (!is_black(shadows_[k].contribution)) active_.push_back(k);
+  for (int surface = 0; !active_.empty(); ++surface) {
+    if (surface == kMostSurfaces) {
+      for (uint32_t index : active_)
+        shadows_[index].contribution = Vec3(0);
+      return;
+    }
+    for (size_t k = 0; k < active_.size(); ++k)
+      rays_[k] = shadows_[active_[k]].ray;
+    scene_.geometry->closest({rays_.data(), active_.size()}, hits_.data());
+    stats.rays += active_.size();
+    shader_->clear();
+    size_t left = 0;
+    for (size_t k = 0; k < active_.size(); ++k) {
+      if (!hits_[k].found()) continue;
+      const Shadow& shadow = shadows_[active_[k]];
+      shader_->add(active_[k], shadow.ray, hits_[k], shadow.width, shadow.spread);
+      active_[left++] = active_[k];
+    }
+    active_.resize(left);
+    shader_->shade(faults, stats, [&](const CompiledMaterial& material, size_t begin, size_t end) {
+      for (size_t k = begin; k < end; ++k) {
+        Shadow& shadow = shadows_[shader_->owner(k)];
+        shadow.contribution *= shader_->straight_through(material, k);
+        const SurfacePoint& s = shader_->point(k);
+        shadow.ray.origin = s.world - s.geometric_normal * s.offset;
+        shadow.ray.far -= s.distance;
+        shadow.width = shader_->width(k);
+        if (!(shadow.ray.far > 0)) shadow.ray.far = 0;
+      }
+    });
+    std::erase_if(active_, [&](uint32_t index) {
+      return is_black(shadows_[index].contribution) || shadows_[index].ray.far <= 0;
+    });
+  }
+}
+
+} // namespace moonshade::renderer

@@ -1,0 +1,46 @@
+// Rays towards lights, a batch at a time. What is opaque blocks them; a second look goes through what is not (surfaces
+// whose opacity a shader gives, thin glass), sorted by material like any other hits.
+#pragma once
+
+#include "renderer/integrators/hit_shader.h"
+
+namespace moonshade::renderer {
+
+struct Shadow {
+  Ray ray;
+  uint32_t owner = 0;
+  Vec3 contribution{0}; ///< where nothing is in between
+  float width = 0, spread = 0;
+};
+
+class ShadowTracer {
+public:
+  ShadowTracer(const PreparedScene& scene, size_t capacity);
+
+  bool full() const { return shadows_.size() == capacity_; }
+  bool empty() const { return shadows_.empty(); }
+  void add(const Shadow& shadow) { shadows_.push_back(shadow); }
+  /// Afterwards contributions are what arrives; they are shown in the order in which they were added.
+  template <typename Deliver> void trace(FaultLog& faults, WorkerStats& stats, Deliver deliver) {
+    arrive(faults, stats);
+    for (const Shadow& shadow : shadows_)
+      if (!is_black(shadow.contribution)) deliver(shadow.owner, shadow.contribution);
+    shadows_.clear();
+  }
+
+private:
+  void arrive(FaultLog& faults, WorkerStats& stats);
+  void pass_through(FaultLog& faults, WorkerStats& stats);
+
+  const PreparedScene& scene_;
+  size_t capacity_;
+  std::vector<Shadow> shadows_;
+  std::vector<Ray> rays_;
+  std::vector<uint8_t> blocked_;
+  // Only where something lets light through.
+  std::unique_ptr<HitShader> shader_;
+  std::vector<Hit> hits_;
+  std::vector<uint32_t> active_;
+};
+
+} // namespace moonshade::renderer
