@@ -92,9 +92,9 @@ TypeList Walker::call_function(const CallExpr& expr, const Function& function, T
     context_.analyse(*callee);
   }
   TypeList results;
-  if (callee->has_results) {
+  if (callee->has_results && !callee->has_unequal_returns) {
     results.types = callee->results;
-  } else if (callee->has_open_return) {
+  } else if (callee->has_open_return || callee->has_unequal_returns) {
     results.open = true;
   }
   if (context_.report && callee->spec != nullptr) {

@@ -47,6 +47,8 @@ struct Work {
   bool has_results = false;
   /// Some `return` of the last walk gives values that are not known (an error, or not inferred yet).
   bool has_open_return = false;
+  /// Its returns give different counts of values, which is reported; callers know nothing of them.
+  bool has_unequal_returns = false;
   std::vector<Type> results;
   std::vector<Type> first_results; ///< those of the first `return`
   Span first_return{};

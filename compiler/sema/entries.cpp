@@ -35,15 +35,26 @@ std::string expected_result(const TableEntry& entry) {
   return entry.is_vector ? "a vec3" : "a number";
 }
 
-constexpr const char* kInputList = "p, P, n, ng, backface, i, uv, dpdu, dpdv, time, frame, id, fw";
+constexpr std::string_view kInputs[] = {"p",    "P",    "n",    "ng",    "backface", "i", "uv",
+                                        "dpdu", "dpdv", "time", "frame", "id",       "fw"};
+
+std::string input_list() {
+  std::string text;
+  for (const std::string_view name : kInputs)
+    text += (text.empty() ? "" : ", ") + std::string(name);
+  return text;
+}
 
 std::vector<Type> input_types(Context& context, const syntax::Function& function, bool report) {
   std::vector<Type> types;
   for (const syntax::Local* param : function.params) {
     const auto type = input_type(param->name);
     types.push_back(type ? Type::of(*type) : unknown_type());
-    if (!type && report)
-      context.diagnostics.report(Code::UnknownInput, param->span, {std::string(param->name), kInputList});
+    if (type || !report) continue;
+    const auto near = nearest(param->name, kInputs);
+    suggest_fix(context.diagnostics.report(Code::UnknownInput, param->span,
+                                           {std::string(param->name), input_list(), suggestion(near)}),
+                near);
   }
   return types;
 }
@@ -82,7 +93,7 @@ void check_table_result(Context& context, const EntryPlan& plan) {
   const TableEntry& entry = *find_in_table(plan.global->name);
   const Work& work = *plan.work;
   const std::string name(entry.name);
-  if (!work.has_results && work.has_open_return) return; // already refused
+  if (work.has_unequal_returns || (!work.has_results && work.has_open_return)) return; // already refused
   if (work.results.empty()) {
     context.error(Code::EntryResultCount, plan.global->function->end_span, {name, expected_result(entry)});
     return;

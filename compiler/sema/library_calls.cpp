@@ -84,10 +84,10 @@ LibraryChoice choose_row(std::span<const LibraryFunction> rows, const std::vecto
   const auto may_be_integer = [](const Type& type, ValueType parameter) {
     return parameter == ValueType::Integer && (type.mixed || type.is(ValueType::Integer));
   };
-  for (const LibraryFunction& row : rows)
-    if (&row != choice.row && row.result_count > 0 && row.results[0] == ValueType::Integer &&
-        row_takes(row, types, may_be_integer))
-      choice.is_mixed = true;
+  for (const LibraryFunction& row : rows) {
+    if (&row == choice.row || row.result_count == 0 || !row_takes(row, types, may_be_integer)) continue;
+    (row.results[0] == ValueType::Integer ? choice.is_mixed : choice.depends_on_kind) = true;
+  }
   return choice;
 }
 
@@ -193,9 +193,10 @@ TypeList Walker::call_table_row(const Expr& expr, std::string_view name, const s
     }
     return {{}, true};
   }
-  if (name == "math.fmod" && choice.is_mixed) {
-    const size_t at = types[0].mixed ? 0 : 1;
-    if (types[at].mixed) refuse_mixed(*args[std::min(at, args.size() - 1)], name);
+  const auto mixed = std::ranges::find_if(types, &Type::mixed);
+  if (choice.depends_on_kind || (name == "math.fmod" && choice.is_mixed)) {
+    const auto at = static_cast<size_t>(mixed - types.begin());
+    if (mixed != types.end()) refuse_mixed(*args[std::min(at, args.size() - 1)], name);
     return {{number_type()}, false};
   }
   ExpressionFact fact;

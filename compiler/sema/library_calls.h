@@ -16,6 +16,8 @@ struct LibraryChoice {
   /// The results are numbers that Lua may hold as integers: some argument is mixed, and were it an integer, another
   /// row, with integer results, would be meant.
   bool is_mixed = false;
+  /// As is_mixed, but that row gives something else than this one (`hash`): the call cannot be compiled.
+  bool depends_on_kind = false;
 };
 LibraryChoice choose_row(std::span<const LibraryFunction> rows, const std::vector<Type>& types);
 

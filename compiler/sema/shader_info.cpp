@@ -1,6 +1,8 @@
 // The inputs of entry points, and values that hosts give to parameters.
 #include "compiler/sema/shader_info.h"
 
+#include "compiler/syntax/numeral.h"
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -85,7 +87,23 @@ std::optional<double> outside_range(const ParameterInfo& parameter, const Consta
   return std::nullopt;
 }
 
+/// Any numeral of Lua's, with a sign.
+std::optional<std::variant<int64_t, double>> read_numeral(std::string_view text) {
+  const bool negative = text.starts_with('-');
+  if (negative || text.starts_with('+')) text.remove_prefix(1);
+  auto value = syntax::numeral_value(text);
+  if (!value || !negative) return value;
+  if (const auto* integer = std::get_if<int64_t>(&*value))
+    return static_cast<int64_t>(0 - static_cast<uint64_t>(*integer)); // 0x8000000000000000 wraps
+  return -std::get<double>(*value);
+}
+
+/// Beside numerals "inf" and "nan", as results are printed.
 std::optional<double> read_number(std::string_view text) {
+  if (const auto value = read_numeral(text)) {
+    const auto* integer = std::get_if<int64_t>(&*value);
+    return integer != nullptr ? static_cast<double>(*integer) : std::get<double>(*value);
+  }
   if (text.starts_with('+')) text.remove_prefix(1);
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -94,11 +112,10 @@ std::optional<double> read_number(std::string_view text) {
 }
 
 std::optional<int64_t> read_integer(std::string_view text) {
-  if (text.starts_with('+')) text.remove_prefix(1);
-  int64_t value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return value;
+  if (text == "-9223372036854775808") return INT64_MIN; // its digits alone are a float
+  const auto value = read_numeral(text);
+  if (!value || !std::holds_alternative<int64_t>(*value)) return std::nullopt;
+  return std::get<int64_t>(*value);
 }
 
 std::string_view trim(std::string_view text) {

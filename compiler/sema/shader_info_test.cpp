@@ -38,6 +38,24 @@ TEST(Overrides, AreConvertedToTheParametersType) {
             Constant(std::vector<double>{0.2, 0.4, 1}));
 }
 
+TEST(Overrides, KnowEveryNumeralOfLuas) {
+  const auto number = parameter(ValueType::Number, 4.0);
+  const auto integer = parameter(ValueType::Integer, int64_t{1});
+  EXPECT_EQ(parse_override(number, "0x10").value, Constant(16.0));
+  EXPECT_EQ(parse_override(number, "-0x1.8p1").value, Constant(-3.0));
+  EXPECT_EQ(parse_override(number, ".5").value, Constant(0.5));
+  EXPECT_EQ(parse_override(number, "+5.").value, Constant(5.0));
+  EXPECT_EQ(parse_override(number, "-inf").value, Constant(-std::numeric_limits<double>::infinity()));
+  EXPECT_EQ(parse_override(integer, "0xff").value, Constant(int64_t{255}));
+  EXPECT_EQ(parse_override(integer, "-0x10").value, Constant(int64_t{-16}));
+  EXPECT_EQ(parse_override(integer, "0xffffffffffffffff").value, Constant(int64_t{-1}));
+  EXPECT_EQ(parse_override(integer, "-9223372036854775808").value, Constant(std::numeric_limits<int64_t>::min()));
+  EXPECT_EQ(parse_override(parameter(ValueType::Vec2, std::vector<double>{0, 0}), "0x2, 1e1").value,
+            Constant(std::vector<double>{2, 10}));
+  for (const char* wrong : {"0x", "1.0", "9223372036854775808", "1 2", "--1", "", "ten", "1e1"})
+    EXPECT_NE(parse_override(integer, wrong).error, "") << wrong;
+}
+
 TEST(Overrides, OfAnotherTypeAreRefused) {
   EXPECT_EQ(check_override(parameter(ValueType::Number, 4.0), true).error,
             "parameter 'scale' is a number, not a boolean");

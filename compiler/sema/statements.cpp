@@ -283,7 +283,10 @@ void Walker::define_function(const FunctionStat& stat) {
 /// A function's name is defined once, and on every path.
 void Walker::refuse_definition(const Global& global, Span span) {
   if (!context_.report || (span == global.definition && !global.in_branch)) return;
-  refuse_function(span, global.name, nullptr);
+  if (span == global.definition && parameter_branches_ == 0)
+    error(Code::FunctionInBranch, span, {std::string(global.name)});
+  else
+    refuse_function(span, global.name, nullptr);
 }
 
 // ---- loops and results ---------------------------------------------------------------------------------------------
@@ -346,6 +349,14 @@ void Walker::generic_for(const GenericForStat& stat) {
   --loop_depth_;
 }
 
+namespace {
+
+std::string count_of_values(size_t count) {
+  return count == 0 ? "no value" : count == 1 ? "1 value" : std::to_string(count) + " values";
+}
+
+} // namespace
+
 void Walker::return_values(const ReturnStat& stat) {
   TypeList list = expression_list(stat.values);
   if (at_top_level()) return; // what the file returns nobody reads
@@ -373,7 +384,9 @@ void Walker::return_values(const ReturnStat& stat) {
     return;
   }
   if (list.types.size() != work_.results.size()) {
-    type_error(Code::ResultCount, stat.span, {std::to_string(list.types.size()), std::to_string(work_.results.size())})
+    work_.has_unequal_returns = true;
+    type_error(Code::ResultCount, stat.span,
+               {count_of_values(list.types.size()), count_of_values(work_.results.size())})
         .note(Code::NoteOtherReturn, work_.first_return);
     return;
   }

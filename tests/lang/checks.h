@@ -1,4 +1,4 @@
-// The two kinds of test. Each gives what is wrong, one line a finding; empty where all is well.
+// The kinds of test. Each gives what is wrong, one line a finding; empty where all is well.
 #pragma once
 
 #include "runtime/frontend.h"
@@ -17,5 +17,8 @@ std::string compare_diagnostics(const CheckedShader& shader, Severity severity,
 
 /// The program is plain Lua, and is refused with exactly the expected diagnostics.
 std::string check_refusal(const std::string& name, const std::string& text, const Directives& directives);
+
+/// The same for what is no Lua: stock Lua refuses it too.
+std::string check_malformed(const std::string& name, const std::string& text, const Directives& directives);
 
 } // namespace moonshade::lang_test

@@ -49,4 +49,10 @@ std::string check_refusal(const std::string& name, const std::string& text, cons
   return compare_diagnostics(CheckedShader(name, text), Severity::Error, directives.errors);
 }
 
+std::string check_malformed(const std::string& name, const std::string& text, const Directives& directives) {
+  if (directives.errors.empty()) return "the program expects no error\n";
+  if (lua_syntax_error(text).empty()) return "stock Lua takes it\n";
+  return compare_diagnostics(CheckedShader(name, text), Severity::Error, directives.errors);
+}
+
 } // namespace moonshade::lang_test

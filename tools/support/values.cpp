@@ -26,7 +26,8 @@ std::optional<double> parse_number(const std::string& text) {
 std::optional<int64_t> parse_integer(const std::string& text) {
   char* end = nullptr;
   errno = 0;
-  const long long value = std::strtoll(text.c_str(), &end, 10);
+  const bool hexadecimal = text.find_first_of("xX") != std::string::npos;
+  const long long value = std::strtoll(text.c_str(), &end, hexadecimal ? 16 : 10);
   if (errno != 0 || end != text.c_str() + text.size()) return std::nullopt;
   return value;
 }
