@@ -11,6 +11,7 @@ namespace moonshade::stdlib {
 /// Components of a parameter's or result's C++ type; 0 for integers and booleans, which have no derivative.
 template <class L, class T> inline constexpr int components_of = std::is_same_v<T, L> ? 1 : 0;
 template <class L, int N> inline constexpr int components_of<L, Vec<N, L>> = N;
+template <class L, int N> inline constexpr int components_of<L, Mat<N, L>> = N * N;
 
 /// Row (of MS_ROW) over the plain lane L, by the parameters whose bits are set in Active.
 template <class Row, unsigned Active, class L, class Type = typename Row::template Of<L>::Type> class Derivative;
@@ -53,10 +54,17 @@ private:
   template <int N> MS_INLINE static Vec<N, L> slope_of(const Vec<N, D>& v, int k) {
     return map<N, L>([k](const D& x) __attribute__((always_inline)) { return x.d[k]; }, v);
   }
+  template <int N> MS_INLINE static Mat<N, L> slope_of(const Mat<N, D>& m, int k) {
+    return map_columns<L>([k](const Vec<N, D>& column) __attribute__((always_inline)) { return slope_of(column, k); },
+                          m);
+  }
   template <class T> MS_INLINE static T slope_of(const T&, int) { return T{}; } // of an integer or boolean
   MS_INLINE static L value_of(const D& x) { return x.v; }
   template <int N> MS_INLINE static Vec<N, L> value_of(const Vec<N, D>& v) {
     return map<N, L>([](const D& x) __attribute__((always_inline)) { return x.v; }, v);
+  }
+  template <int N> MS_INLINE static Mat<N, L> value_of(const Mat<N, D>& m) {
+    return map_columns<L>([](const Vec<N, D>& column) __attribute__((always_inline)) { return value_of(column); }, m);
   }
   template <class T> MS_INLINE static T value_of(const T& x) { return x; }
 
@@ -68,9 +76,14 @@ private:
     }
     return result;
   }
-  template <size_t I, int N> MS_INLINE static Vec<N, D> seed(const Vec<N, L>& v) {
+  template <size_t I, int N> MS_INLINE static Vec<N, D> seed(const Vec<N, L>& v, int first = 0) {
     return [&]<size_t... C>(std::index_sequence<C...>) __attribute__((always_inline)) {
-      return Vec<N, D>{{seed<I>(v[C], int(C))...}};
+      return Vec<N, D>{{seed<I>(v[C], first + int(C))...}};
+    }(std::make_index_sequence<N>());
+  }
+  template <size_t I, int N> MS_INLINE static Mat<N, D> seed(const Mat<N, L>& m) {
+    return [&]<size_t... C>(std::index_sequence<C...>) __attribute__((always_inline)) {
+      return Mat<N, D>{{seed<I>(m[C], N * int(C))...}};
     }(std::make_index_sequence<N>());
   }
 };

@@ -22,6 +22,12 @@ template <int M, int N> uint16_t used(const Vec<M, Dual<double, N>>& result, int
     bits |= uint16_t(result[i].on(k) ? 1u << i : 0u);
   return bits;
 }
+template <int M, int N> uint16_t used(const Mat<M, Dual<double, N>>& result, int k) {
+  uint16_t bits = 0;
+  for (int i = 0; i < M; ++i)
+    bits |= uint16_t(used(result[i], k) << (M * i));
+  return bits;
+}
 template <class T> uint16_t used(const T&, int) { return 0; } // an integer or boolean
 
 template <class T> T some_argument() {

@@ -39,6 +39,8 @@ using namespace moonshade::stdlib;
 #define PARAMETERS_Vec2(...) COUNT(__VA_ARGS__)
 #define PARAMETERS_Vec3(...) COUNT(__VA_ARGS__)
 #define PARAMETERS_Vec4(...) COUNT(__VA_ARGS__)
+#define PARAMETERS_Mat3(...) COUNT(__VA_ARGS__)
+#define PARAMETERS_Mat4(...) COUNT(__VA_ARGS__)
 #define PARAMETERS_IntegerIfAny(...) COUNT(__VA_ARGS__)
 #define PARAMETERS_NumberNumberNumber(...) COUNT(__VA_ARGS__)
 #define RESULTS_Number(...) 1
@@ -47,6 +49,8 @@ using namespace moonshade::stdlib;
 #define RESULTS_Vec2(...) 1
 #define RESULTS_Vec3(...) 1
 #define RESULTS_Vec4(...) 1
+#define RESULTS_Mat3(...) 1
+#define RESULTS_Mat4(...) 1
 #define RESULTS_IntegerIfAny(...) 2
 #define RESULTS_NumberNumberNumber(...) 3
 

@@ -206,6 +206,11 @@ TEST(Exports, AllWidthsGiveTheBitsOfOneLane) {
 // The templates themselves
 // ----------------------------------------------------------------------------------------------
 
+template <int N, class L> auto& component_at(Vec<N, L>& v, unsigned c) { return v[int(c)]; }
+template <int N, class L> auto& component_at(const Vec<N, L>& v, unsigned c) { return v[int(c)]; }
+template <int N, class L> auto& component_at(Mat<N, L>& m, unsigned c) { return m[int(c) / N][int(c) % N]; }
+template <int N, class L> auto& component_at(const Mat<N, L>& m, unsigned c) { return m[int(c) / N][int(c) % N]; }
+
 /// Reads and writes one point of a column as a value of C++.
 template <class T, class L> T read(const Column& column, unsigned point) {
   T value;
@@ -216,7 +221,7 @@ template <class T, class L> T read(const Column& column, unsigned point) {
     component(0, value);
   else
     for (unsigned c = 0; c < sizeof value / sizeof(L); ++c)
-      component(c, value[c]);
+      component(c, component_at(value, c));
   return value;
 }
 template <class L, class T> void write(Column& column, unsigned point, const T& value) {
@@ -229,7 +234,7 @@ template <class L, class T> void write(Column& column, unsigned point, const T& 
     component(0, static_cast<unsigned char>(value.bits));
   else
     for (unsigned c = 0; c < sizeof value / sizeof(L); ++c)
-      component(c, value[c]);
+      component(c, component_at(value, c));
 }
 template <class L, class T> void write_all(std::vector<Column>& results, unsigned point, const T& value) {
   write<L>(results[0], point, value);

@@ -63,11 +63,24 @@ template <int N> struct Argument<Vec<N, double>> {
   }
 };
 
+template <int N> struct Argument<Mat<N, double>> {
+  static bool fits(const LuaValue& value, bool) { return value.columns() == N; }
+  static Mat<N, double> read(const LuaValue& value) {
+    return matrix_of<double, N>([&](int row, int column) { return value.components[column * N + row]; });
+  }
+};
+
 void push(lua_State* state, double value) { lua_pushnumber(state, value); }
 template <int N> void push(lua_State* state, const Vec<N, double>& value) {
   double* to = push_new_vector(state, N);
   for (int i = 0; i < N; ++i)
     to[i] = value[i];
+}
+
+template <int N> void push(lua_State* state, const Mat<N, double>& value) {
+  double* to = push_new_matrix(state, N);
+  for (int i = 0; i < N * N; ++i)
+    to[i] = value[i / N][i % N];
 }
 
 // Calls ---------------------------------------------------------------------------------------------------------------
@@ -169,6 +182,9 @@ bool takes(const LibraryFunction& row, unsigned parameter, const LuaValue& value
     return value.kind == Kind::Integer;
   case ValueType::Boolean:
     return value.kind == Kind::Boolean;
+  case ValueType::Mat3:
+  case ValueType::Mat4:
+    return value.columns() != 0 && matrix_type(value.columns()) == row.parameters[parameter];
   default:
     return value.size() != 0 && vector_type(value.size()) == row.parameters[parameter];
   }
@@ -276,10 +292,10 @@ void set_function(lua_State* state, const char* name, lua_CFunction function, bo
     lua_pop(state, 1);
 }
 
-/// A method of vectors: a function that takes one first.
+/// A method of vectors or matrices: a function that takes one first.
 bool is_method(std::string_view name) {
   for (const LibraryFunction& row : library_overloads(name))
-    if (row.componentwise || is_vector(row.parameters[0])) return true;
+    if (row.componentwise || is_vector(row.parameters[0]) || is_matrix(row.parameters[0])) return true;
   return false;
 }
 
@@ -380,10 +396,13 @@ int luaopen_moonshade(lua_State* state) {
   set_function(state, "vec3", construct_vec3, false);
   set_function(state, "vec4", construct_vec4, false);
   set_function(state, "rgb", construct_rgb, false);
+  set_function(state, "mat3", construct_mat3, false);
+  set_function(state, "mat4", construct_mat4, false);
   set_function(state, "param", param, false);
   set_function(state, "gradient", lua_gradient, false);
   set_function(state, "fwidth", lua_fwidth, false);
   open_vectors(state);
+  open_matrices(state);
   lua_pop(state, 1);
   return 1;
 }

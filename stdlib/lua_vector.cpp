@@ -20,10 +20,20 @@ struct VectorBlock {
 };
 
 /// Tags are the addresses of these; their values name the types. Metatables lie in the registry under the same keys.
-constexpr std::array<const char*, 5> kTypeNames = {"", "", "vec2", "vec3", "vec4"};
+/// The index is the number of components: 2 to 4, and 9 and 16 of matrices.
+constexpr std::array<const char*, 17> kTypeNames = {"",     "", "vec2", "vec3", "vec4", "", "", "",    "",
+                                                    "mat3", "", "",     "",     "",     "", "", "mat4"};
 const void* tag_of(unsigned size) { return &kTypeNames[size]; }
 
 constexpr size_t block_size(unsigned size) { return sizeof(VectorBlock) + size * sizeof(double); }
+
+double* push_new(lua_State* state, unsigned size) {
+  auto* block = static_cast<VectorBlock*>(lua_newuserdatauv(state, block_size(size), 0));
+  block->tag = tag_of(size);
+  lua_rawgetp(state, LUA_REGISTRYINDEX, tag_of(size));
+  lua_setmetatable(state, -2);
+  return block->components;
+}
 
 /// Raises an error that begins with the position of the calling Lua code.
 [[noreturn]] void fail(lua_State* state, const char* format, const char* a = "", const char* b = "") {
@@ -85,21 +95,8 @@ int index_vector(lua_State* state) {
   return 1;
 }
 
-int refuse_assignment(lua_State* state) {
-  fail(state, "a %s cannot be changed in place: make a new one", lua_type_name(state, 1));
-}
-
 // Operators
 // -------------------------------------------------------------------------------------------------------------
-
-/// Where numbers and vectors do not fit each other.
-[[noreturn]] void refuse_operands(lua_State* state, const char* symbol) {
-  luaL_where(state, 1);
-  lua_pushfstring(state, "'%s' of %s and %s", symbol, lua_type_name(state, 1), lua_type_name(state, 2));
-  lua_concat(state, 2);
-  lua_error(state);
-  __builtin_unreachable();
-}
 
 struct Add {
   static constexpr const char* symbol = "+";
@@ -158,24 +155,6 @@ int equal_vectors(lua_State* state) {
   return 1;
 }
 
-/// "vec2(1.0, 2.5)", numbers as Lua writes them.
-int describe_vector(lua_State* state) {
-  LuaValue a = lua_value(state, 1);
-  luaL_Buffer buffer;
-  luaL_buffinit(state, &buffer);
-  luaL_addstring(&buffer, lua_type_name(state, 1));
-  for (unsigned i = 0; i < a.size(); ++i) {
-    luaL_addstring(&buffer, i == 0 ? "(" : ", ");
-    lua_pushnumber(state, a.components[i]);
-    luaL_tolstring(state, -1, nullptr);
-    lua_remove(state, -2);
-    luaL_addvalue(&buffer);
-  }
-  luaL_addstring(&buffer, ")");
-  luaL_pushresult(&buffer);
-  return 1;
-}
-
 constexpr luaL_Reg kMetamethods[] = {
     {"__newindex", refuse_assignment}, {"__add", binary<Add>},          {"__sub", binary<Subtract>},
     {"__mul", binary<Multiply>},       {"__div", binary<Divide>},       {"__idiv", binary<FloorDivide>},
@@ -216,6 +195,37 @@ int construct(lua_State* state, const char* name, unsigned size) {
 
 } // namespace
 
+int refuse_assignment(lua_State* state) {
+  fail(state, "a %s cannot be changed in place: make a new one", lua_type_name(state, 1));
+}
+
+void refuse_operands(lua_State* state, const char* symbol) {
+  luaL_where(state, 1);
+  lua_pushfstring(state, "'%s' of %s and %s", symbol, lua_type_name(state, 1), lua_type_name(state, 2));
+  lua_concat(state, 2);
+  lua_error(state);
+  __builtin_unreachable();
+}
+
+/// "vec2(1.0, 2.5)", numbers as Lua writes them.
+int describe_vector(lua_State* state) {
+  LuaValue a = lua_value(state, 1);
+  luaL_Buffer buffer;
+  luaL_buffinit(state, &buffer);
+  luaL_addstring(&buffer, lua_type_name(state, 1));
+  const unsigned count = a.columns() != 0 ? a.columns() * a.columns() : a.size();
+  for (unsigned i = 0; i < count; ++i) {
+    luaL_addstring(&buffer, i == 0 ? "(" : ", ");
+    lua_pushnumber(state, a.components[i]);
+    luaL_tolstring(state, -1, nullptr);
+    lua_remove(state, -2);
+    luaL_addvalue(&buffer);
+  }
+  luaL_addstring(&buffer, ")");
+  luaL_pushresult(&buffer);
+  return 1;
+}
+
 int construct_vec2(lua_State* state) { return construct(state, "vec2", 2); }
 int construct_vec3(lua_State* state) { return construct(state, "vec3", 3); }
 int construct_vec4(lua_State* state) { return construct(state, "vec4", 4); }
@@ -247,9 +257,13 @@ LuaValue lua_value(lua_State* state, int index) {
     size_t length = lua_rawlen(state, index);
     if (length < block_size(2)) break;
     auto* block = static_cast<const VectorBlock*>(lua_touserdata(state, index));
-    for (unsigned size = 2; size <= 4; ++size) {
+    constexpr struct {
+      unsigned size;
+      Kind kind;
+    } kKinds[] = {{2, Kind::Vec2}, {3, Kind::Vec3}, {4, Kind::Vec4}, {9, Kind::Mat3}, {16, Kind::Mat4}};
+    for (const auto& [size, kind] : kKinds) {
       if (block->tag != tag_of(size) || length != block_size(size)) continue;
-      value.kind = Kind(unsigned(Kind::Vec2) + size - 2);
+      value.kind = kind;
       value.components = block->components;
     }
     break;
@@ -265,13 +279,8 @@ std::span<const double> vector_at(lua_State* state, int index) {
   return value.size() == 0 ? std::span<const double>() : std::span<const double>(value.components, value.size());
 }
 
-double* push_new_vector(lua_State* state, unsigned size) {
-  auto* block = static_cast<VectorBlock*>(lua_newuserdatauv(state, block_size(size), 0));
-  block->tag = tag_of(size);
-  lua_rawgetp(state, LUA_REGISTRYINDEX, tag_of(size));
-  lua_setmetatable(state, -2);
-  return block->components;
-}
+double* push_new_vector(lua_State* state, unsigned size) { return push_new(state, size); }
+double* push_new_matrix(lua_State* state, unsigned size) { return push_new(state, size * size); }
 
 void push_vector(lua_State* state, std::span<const double> components) {
   double* to = push_new_vector(state, components.size());
@@ -281,23 +290,27 @@ void push_vector(lua_State* state, std::span<const double> components) {
 const char* lua_type_name(lua_State* state, int index) {
   LuaValue value = lua_value(state, index);
   if (value.size() != 0) return kTypeNames[value.size()];
+  if (value.columns() != 0) return kTypeNames[size_t(value.columns()) * value.columns()];
   if (value.kind == Kind::Integer) return "integer";
   return value.kind == Kind::None ? "no value" : lua_typename(state, lua_type(state, index));
 }
 
+void open_type(lua_State* state, unsigned components, const luaL_Reg* metamethods, lua_CFunction index) {
+  lua_newtable(state);
+  luaL_setfuncs(state, metamethods, 0);
+  lua_pushvalue(state, -2);
+  lua_pushcclosure(state, index, 1);
+  lua_setfield(state, -2, "__index");
+  lua_pushstring(state, kTypeNames[components]);
+  lua_setfield(state, -2, "__name");
+  lua_pushboolean(state, false);
+  lua_setfield(state, -2, "__metatable");
+  lua_rawsetp(state, LUA_REGISTRYINDEX, tag_of(components));
+}
+
 void open_vectors(lua_State* state) {
-  for (unsigned size = 2; size <= 4; ++size) {
-    lua_newtable(state);
-    luaL_setfuncs(state, kMetamethods, 0);
-    lua_pushvalue(state, -2);
-    lua_pushcclosure(state, index_vector, 1);
-    lua_setfield(state, -2, "__index");
-    lua_pushstring(state, kTypeNames[size]);
-    lua_setfield(state, -2, "__name");
-    lua_pushboolean(state, false);
-    lua_setfield(state, -2, "__metatable");
-    lua_rawsetp(state, LUA_REGISTRYINDEX, tag_of(size));
-  }
+  for (unsigned size = 2; size <= 4; ++size)
+    open_type(state, size, kMetamethods, index_vector);
 }
 
 } // namespace moonshade

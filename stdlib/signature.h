@@ -6,6 +6,7 @@
 
 #include "stdlib/fractal.h"
 #include "stdlib/geometry.h"
+#include "stdlib/matrix.h"
 #include "stdlib/noise.h"
 #include "stdlib/numbers.h"
 #include "stdlib/operators.h"
@@ -24,7 +25,7 @@ template <class R, class... A> struct Signature<R(A...)> {
   template <template <class...> class To> using Parameters = To<A...>;
 };
 
-/// The names that table.def uses for types, over the lane L.
+/// The names that table.def uses for types, over the lane L. (export.cpp has a line for each, too.)
 #define MS_TYPES(L)                                                                                                    \
   using Number = L;                                                                                                    \
   using Integer = ::moonshade::stdlib::Int<L>;                                                                         \
@@ -32,6 +33,8 @@ template <class R, class... A> struct Signature<R(A...)> {
   using Vec2 = ::moonshade::stdlib::Vec<2, L>;                                                                         \
   using Vec3 = ::moonshade::stdlib::Vec<3, L>;                                                                         \
   using Vec4 = ::moonshade::stdlib::Vec<4, L>;                                                                         \
+  using Mat3 = ::moonshade::stdlib::Mat<3, L>;                                                                         \
+  using Mat4 = ::moonshade::stdlib::Mat<4, L>;                                                                         \
   using IntegerIfAny = ::moonshade::stdlib::Results<::moonshade::stdlib::Int<L>, ::moonshade::stdlib::Mask<L>>;        \
   using NumberNumberNumber = ::moonshade::stdlib::Results<L, L, L>;
 
@@ -53,6 +56,7 @@ template <class T> inline constexpr ValueType value_type_of = ValueType::Number;
 template <> inline constexpr ValueType value_type_of<Mask<double>> = ValueType::Boolean;
 template <> inline constexpr ValueType value_type_of<int64_t> = ValueType::Integer;
 template <int N> inline constexpr ValueType value_type_of<Vec<N, double>> = vector_type(N);
+template <int N> inline constexpr ValueType value_type_of<Mat<N, double>> = matrix_type(N);
 
 /// The result types of a function that gives T.
 template <class T> struct ResultTypes {

@@ -38,6 +38,12 @@ constexpr ValueType vector_type(unsigned size) {
   return size == 2 ? ValueType::Vec2 : size == 3 ? ValueType::Vec3 : ValueType::Vec4;
 }
 
+/// The matrix type of `size` columns, 3 or 4.
+constexpr ValueType matrix_type(unsigned size) { return size == 3 ? ValueType::Mat3 : ValueType::Mat4; }
+
+/// How many columns a matrix has, and components each of them.
+constexpr unsigned matrix_size(ValueType type) { return type == ValueType::Mat3 ? 3 : 4; }
+
 /// The type's name as the language's manual and messages write it.
 constexpr std::string_view name_of(ValueType type) {
   switch (type) {

@@ -256,7 +256,9 @@ ValueId FunctionBuild::library_operator(const BinaryExpr& expr, const Expression
   // Both operands are evaluated before either is converted or checked: a conversion has no effect, a fault has.
   const ValueId left = evaluate(*expr.left);
   const ValueId right = evaluate(*expr.right);
-  if (by_component || !is_vector(known.type.value)) return library_value(row, type, {left, right});
+  if (is_matrix(known.type.value)) return matrix_product(row, left, right);
+  if (by_component || row.name == "op.mul" || !is_vector(known.type.value))
+    return library_value(row, type, {left, right});
   // A row of numbers alone, for vectors: component after component.
   Values numbers;
   for (uint32_t i = 0; i < component_count(known.type.value); ++i) {
@@ -482,8 +484,39 @@ FunctionBuild::Values FunctionBuild::call_library(const ExpressionFact& known, V
   return values;
 }
 
+/// A matrix of one number stands for that on the diagonal; of a matrix, for its part in common, else the identity's.
+FunctionBuild::Values FunctionBuild::square_numbers(ValueType type, ValueId argument) {
+  const ValueType from = b_.type_of(argument);
+  const unsigned size = matrix_size(type), have = is_matrix(from) ? matrix_size(from) : 0;
+  const ValueId zero = b_.number(0), diagonal = have == 0 ? converted(argument, ValueType::Number) : b_.number(1);
+  Values numbers;
+  for (unsigned column = 0; column < size; ++column)
+    for (unsigned row = 0; row < size; ++row)
+      numbers.push_back(column < have && row < have ? b_.component(argument, column * have + row)
+                        : column == row             ? diagonal
+                                                    : zero);
+  return numbers;
+}
+
+/// m * n: each column of n by the row of a vector.
+ValueId FunctionBuild::matrix_product(const LibraryFunction& row, ValueId left, ValueId right) {
+  const unsigned size = matrix_size(b_.type_of(left));
+  Values numbers;
+  for (unsigned column = 0; column < size; ++column) {
+    Values vector;
+    for (unsigned i = 0; i < size; ++i)
+      vector.push_back(b_.component(right, column * size + i));
+    const ValueId product = b_.call_library(row, row.results[0], {left, b_.construct(row.parameters[1], vector)});
+    for (unsigned i = 0; i < size; ++i)
+      numbers.push_back(b_.component(product, i));
+  }
+  return b_.construct(b_.type_of(left), numbers);
+}
+
 /// Numbers and vectors strung together, or one number for each component.
 ValueId FunctionBuild::construct(ValueType type, const Values& arguments) {
+  if (is_matrix(type) && arguments.size() == 1 && arguments[0] != kNone && !is_vector(b_.type_of(arguments[0])))
+    return b_.construct(type, square_numbers(type, arguments[0]));
   Values numbers;
   for (const ValueId argument : arguments) {
     if (argument == kNone) continue;

@@ -81,6 +81,8 @@ private:
   Values call(const syntax::Expr& expr);
   Values call_specialisation(const sema::ExpressionFact& known, const Values& arguments);
   Values call_library(const sema::ExpressionFact& known, Values arguments);
+  Values square_numbers(ValueType type, ValueId argument);
+  ValueId matrix_product(const LibraryFunction& row, ValueId left, ValueId right);
   ValueId construct(ValueType type, const Values& arguments);
   ValueId to_integer(const sema::ExpressionFact& known, ValueId argument);
   void assertion(const syntax::Expr& expr, std::span<syntax::Expr* const> args, ValueId condition);

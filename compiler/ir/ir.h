@@ -16,22 +16,21 @@
 // Numbers are IEEE 754, `float` or `double` by the domain for which code is made, rounded to nearest even; nothing is
 // reassociated, contracted or assumed absent (NaN, infinities, signed zeros, denormals). Integers are 64 bit and wrap.
 // Vectors and matrices work by component; operands of arithmetic have the type of the result (a number beside a vector
-// is made a vector by `construct` first).
+// or matrix is made one by `construct` first).
 //   const.n      a double, rounded to the domain's number
-//   add sub mul neg    integer, number, vector, matrix (mul of matrices by component is not used: see CallLibrary)
-//   div          number, vector
+//   add sub mul neg    integer, number, vector, matrix (by component: the products of the language are "op.mul")
+//   div          number, vector, matrix
 //   fma          a*b + c with one rounding; number, vector; only the `fuse` pass makes it, only for f32
 //   and or xor not     integer (bits) or boolean; both operands are evaluated
-//   eq ne        one type on both sides: boolean, integer, number, vector (eq: all components equal; ne: not eq)
-//   lt le        integer, number; false where an operand is NaN
-//   integer_to_number  rounded to nearest even
-//   select c a b       a where c, else b; both are evaluated
-//   construct    as many numbers as the type has components; one number alone counts for each component of a vector
-//   component    number `index` of a vector or matrix
-//   call_library       the exported body of a library function; operands have its parameter types, except for a
+//   eq ne        one type on both sides: boolean, integer, number, vector, matrix (eq: all components equal; ne: not
+//   eq) lt le        integer, number; false where an operand is NaN integer_to_number  rounded to nearest even select c
+//   a b       a where c, else b; both are evaluated construct    as many numbers as the type has components; one number
+//   alone counts for each component component    number `index` of a vector or matrix call_library       the exported
+//   body of a library function; operands have its parameter types, except for a
 //                componentwise function, where the instruction's type is a vector and each operand is a number or that
 //                vector. More than one result: the value is the first, `result` gives the others.
-//                `%`, `//`, `^`, shifts and comparisons of an integer with a number are library functions named "op.*"
+//                A matrix times a vector, `%`, `//`, `^`, shifts and comparisons of an integer with a number are
+//                library functions named "op.*"
 //   call         runs another function of the module with the operands as arguments and `variables` as its captures.
 //                There is no recursion. The value is the first result, `result` gives the others.
 //   result       result `index` (from 0) of a call or call_library

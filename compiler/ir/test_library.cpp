@@ -44,6 +44,22 @@ template <int N> struct Passing<Vec<N, double>> {
   }
 };
 
+template <int N> struct Passing<Mat<N, double>> {
+  static Mat<N, double> get(const Value& value) {
+    Mat<N, double> m;
+    for (int i = 0; i < N * N; ++i)
+      m[i / N][i % N] = value.numbers[size_t(i)];
+    return m;
+  }
+  static Value put(const Mat<N, double>& m) {
+    Value value = Value::of(0.0);
+    value.type = matrix_type(N);
+    for (int i = 0; i < N * N; ++i)
+      value.numbers[size_t(i)] = m[i / N][i % N];
+    return value;
+  }
+};
+
 template <class R> void put_results(const R& results, std::vector<Value>& out) {
   for_each_result(
       results, [&](const auto& result) { out.push_back(Passing<std::remove_cvref_t<decltype(result)>>::put(result)); });

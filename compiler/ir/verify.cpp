@@ -145,6 +145,8 @@ private:
       expect_type_in(id, instruction.type, {Integer, Number, Vec2, Vec3, Vec4, Mat3, Mat4});
       return expect_operands(id, 0, instruction.type);
     case Op::Div:
+      expect_type_in(id, instruction.type, {Number, Vec2, Vec3, Vec4, Mat3, Mat4});
+      return expect_operands(id, 0, instruction.type);
     case Op::Fma:
       expect_type_in(id, instruction.type, {Number, Vec2, Vec3, Vec4});
       return expect_operands(id, 0, instruction.type);
@@ -157,7 +159,7 @@ private:
     case Op::Eq:
     case Op::Ne:
       expect_type(id, Boolean);
-      expect_type_in(id, operand_type(instruction, 0), {Boolean, Integer, Number, Vec2, Vec3, Vec4});
+      expect_type_in(id, operand_type(instruction, 0), {Boolean, Integer, Number, Vec2, Vec3, Vec4, Mat3, Mat4});
       return expect_operands(id, 1, operand_type(instruction, 0));
     case Op::Lt:
     case Op::Le:

@@ -113,6 +113,7 @@ TypeList Walker::call_library(const CallExpr& expr, std::string_view name) {
   if (name == "param") return parameter(expr);
   if (name == "assert" || name == "error") return assert_or_error(expr, name == "assert");
   if (name == "vec2" || name == "vec3" || name == "vec4" || name == "rgb") return construct(expr, name);
+  if (name == "mat3" || name == "mat4") return construct_matrix(expr, name);
   if (name == "math.floor" || name == "math.ceil" || name == "math.tointeger") return to_integer(expr, name);
   if (name == "math.max" || name == "math.min") return extremum(expr, name);
   if (name == "math.type") return math_type(expr);
@@ -130,7 +131,7 @@ TypeList Walker::method_call(const MethodCallExpr& expr) {
     error(Code::StringBuilding, expr.span, {"the library 'string'"});
     return unknown_values();
   }
-  if (!is_vector(object)) {
+  if (!is_vector(object) && !is_matrix(object)) {
     type_error(Code::OperandType, expr.object->span, {":" + std::string(expr.method.text), describe(object)});
     return unknown_values();
   }
@@ -138,7 +139,8 @@ TypeList Walker::method_call(const MethodCallExpr& expr) {
   bool is_method = false;
   for (const LibraryFunction& row : library()) {
     if (row.parameter_count == 0 || row.name.find('.') != std::string_view::npos) continue;
-    if (!is_vector(row.parameters[0]) && !row.componentwise) continue;
+    const bool is_matrix_method = is_matrix(object) && is_matrix(row.parameters[0]);
+    if (!is_matrix_method && (is_matrix(object) || (!is_vector(row.parameters[0]) && !row.componentwise))) continue;
     methods.push_back(row.name);
     is_method = is_method || row.name == expr.method.text;
   }

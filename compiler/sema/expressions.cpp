@@ -255,6 +255,7 @@ Type Walker::index(const IndexExpr& expr) {
   const Type object = expression(*expr.object);
   if (object.kind == Type::Kind::Library && object.text == "math") return library_field(expr, object.text);
   if (is_vector(object)) return vector_component(expr, object);
+  if (is_matrix(object)) return matrix_column(expr, object);
   if (!expr.is_dotted) expression(*expr.key);
   if (is_unknown(object)) return unknown_type();
   if (object.kind == Type::Kind::String) {

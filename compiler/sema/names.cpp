@@ -57,8 +57,6 @@ constexpr RefusedName kRefusedNames[] = {
     {"ipairs", Code::NotAvailableYet, "arrays ('ipairs') are"},
     {"print", Code::NotAvailableYet, "'print' is"},
     {"texture", Code::NotAvailableYet, "images ('texture') are"},
-    {"mat3", Code::NotAvailableYet, "matrices ('mat3') are"},
-    {"mat4", Code::NotAvailableYet, "matrices ('mat4') are"},
 };
 
 /// Functions that the manual promises; those that the table does not have yet are refused as such, not as unknown.
@@ -79,8 +77,8 @@ constexpr std::string_view kPlannedFunctions[] = {
     "math.type",   "math.ult",
 };
 
-constexpr std::array<std::string_view, 13> kBuiltIn = {
-    "vec2",       "vec3",      "vec4",           "rgb",       "param",    "assert", "error",
+constexpr std::array<std::string_view, 15> kBuiltIn = {
+    "vec2",       "vec3",      "vec4",           "rgb",       "mat3",     "mat4",  "param", "assert", "error",
     "math.floor", "math.ceil", "math.tointeger", "math.type", "gradient", "fwidth"};
 
 constexpr LibraryConstant kConstants[] = {

@@ -110,7 +110,7 @@ Type Walker::binary(const BinaryExpr& expr) {
 }
 
 bool Walker::takes_arithmetic(const Expr& operand, const Type& type, std::string_view op) {
-  if (is_scalar(type) || is_vector(type)) return true;
+  if (is_scalar(type) || is_vector(type) || is_matrix(type)) return true;
   if (!is_unknown(type)) type_error(Code::OperandType, operand.span, {std::string(op), describe(type)});
   return false;
 }
@@ -143,6 +143,7 @@ Type Walker::arithmetic(const BinaryExpr& expr, const Type& left, const Type& ri
   const bool left_fits = takes_arithmetic(*expr.left, left, op);
   const bool right_fits = takes_arithmetic(*expr.right, right, op);
   if (!left_fits || !right_fits) return unknown_type();
+  if (is_matrix(left) || is_matrix(right)) return matrix_arithmetic(expr, left, right);
 
   const bool by_component = is_vector(left) || is_vector(right);
   if (is_vector(left) && is_vector(right) && left != right) {

@@ -64,7 +64,8 @@ enum class CallKind : uint8_t {
   Specialisation, ///< runs `callee`
   Library,        ///< `library`; by component where the call's type is a vector; missing trailing arguments take the
                   ///< row's defaults. math.max and math.min: any number of arguments, the row is folded from the left
-  Construct,      ///< vec2, vec3, vec4, rgb: numbers and vectors strung together, or one number for each component
+  Construct,      ///< vec2, vec3, vec4, rgb: numbers and vectors strung together, or one number for each component;
+                  ///< mat3, mat4: the same by columns, one number on the diagonal, or a matrix cut or grown
   Convert,        ///< the argument itself, converted to the call's type (math.floor of an integer, ...)
   ToInteger,      ///< math.floor, math.ceil: the row `library` gives integer and ok; faults IntegerRange where not ok
   Parameter,      ///< param: Program::info.parameters[index]

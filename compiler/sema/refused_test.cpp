@@ -83,7 +83,6 @@ INSTANTIATE_TEST_SUITE_P(
     NotYet, RefusalTest,
     Values(Refusal{"local t = ${1, { 2, $nil } }", {"not-available-yet", "nil-value"}},
            Refusal{"local m = $require 'm'", {"not-available-yet"}}, Refusal{"$print(1)", {"not-available-yet"}},
-           Refusal{"local m = $mat3(1)", {"not-available-yet"}},
            Refusal{"function color(p) return $texture('a.png', p.xy) end", {"not-available-yet"}},
            Refusal{"local function f(g) return g(1) end\nfunction height(p) return f($sin) end", {"not-available-yet"}},
            Refusal{"local function f() return $sin end\nfunction height(p) local s = f() return 1 end",

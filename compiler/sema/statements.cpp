@@ -237,6 +237,8 @@ void Walker::assign_index(const AssignStat& stat, const IndexExpr& target) {
     if (const auto* key = try_as<IntegerExpr>(target.key); key != nullptr && key->value >= 1 && key->value <= 4)
       component = "xyzw"[key->value - 1];
     type_error(Code::VectorComponent, stat.span, {component_proposal(*target.object, object, component, stat)});
+  } else if (is_matrix(object)) {
+    type_error(Code::VectorComponent, stat.span, {"a new one, as by '" + type_name(object) + "(...)' of its columns"});
   } else if (object.kind == Type::Kind::Library) {
     error(Code::LibraryAssignment, stat.span);
   } else {

@@ -34,6 +34,8 @@ inline bool is_function(const Type& type) {
 }
 inline bool is_vector(const Type& type) { return type.is_value() && is_vector(type.value); }
 
+inline bool is_matrix(const Type& type) { return type.is_value() && is_matrix(type.value); }
+
 /// Of what was given values of types that do not fit each other, which is reported once: it agrees with everything, so
 /// that nothing follows from it.
 inline Type conflicting_type() {

@@ -66,6 +66,9 @@ private:
                           const std::vector<Type>& types);
   TypeList method_call(const syntax::MethodCallExpr& expr);
   TypeList construct(const syntax::CallExpr& expr, std::string_view name);
+  TypeList construct_matrix(const syntax::CallExpr& expr, std::string_view name);
+  Type matrix_column(const syntax::IndexExpr& expr, const Type& object);
+  Type matrix_arithmetic(const syntax::BinaryExpr& expr, const Type& left, const Type& right);
   TypeList extremum(const syntax::CallExpr& expr, std::string_view name);
   TypeList to_integer(const syntax::CallExpr& expr, std::string_view name);
   TypeList math_type(const syntax::CallExpr& expr);
