@@ -22,11 +22,14 @@
 //   div          number, vector, matrix
 //   fma          a*b + c with one rounding; number, vector; only the `fuse` pass makes it, only for f32
 //   and or xor not     integer (bits) or boolean; both operands are evaluated
-//   eq ne        one type on both sides: boolean, integer, number, vector, matrix (eq: all components equal; ne: not
-//   eq) lt le        integer, number; false where an operand is NaN integer_to_number  rounded to nearest even select c
-//   a b       a where c, else b; both are evaluated construct    as many numbers as the type has components; one number
-//   alone counts for each component component    number `index` of a vector or matrix call_library       the exported
-//   body of a library function; operands have its parameter types, except for a
+//   eq ne        one type on both sides: boolean, integer, number, vector, matrix
+//                (eq: all components equal; ne: not eq)
+//   lt le        integer, number; false where an operand is NaN
+//   integer_to_number  rounded to nearest even
+//   select c a b       a where c, else b; both are evaluated
+//   construct    as many numbers as the type has components; one number alone counts for each component
+//   component    number `index` of a vector or matrix
+//   call_library       the exported body of a library function; operands have its parameter types, except for a
 //                componentwise function, where the instruction's type is a vector and each operand is a number or that
 //                vector. More than one result: the value is the first, `result` gives the others.
 //                A matrix times a vector, `%`, `//`, `^`, shifts and comparisons of an integer with a number are
