@@ -61,6 +61,7 @@ public:
       choose_pixels();
     }
     progress_.paths_resumed = totals_.paths;
+    progress_.rays_resumed = totals_.rays;
     show_progress();
     while (!finished()) {
       uint32_t samples = std::min(pass_samples_, settings_.samples - film_->samples());
@@ -73,9 +74,10 @@ public:
         choose_pixels();
       }
       show_progress();
-      if (options_.after_pass) options_.after_pass(*this);
+      if (options_.after_pass) options_.after_pass(*this, false);
       if (progress_.cancel || time_is_up()) break;
     }
+    if (!finished() && options_.after_pass) options_.after_pass(*this, true);
     return result();
   }
 
@@ -139,10 +141,12 @@ private:
       DefaultFloatEnvironment environment;
       auto& worker = workers_[size_t(tbb::this_task_arena::current_thread_index())];
       if (!worker) worker = std::make_unique<Wavefront>(scene_, kBatchPaths);
+      uint64_t rays_before = worker->stats().rays;
       size_t begin = index * chunk, end = std::min(begin + chunk, order_.size()), at = begin * samples;
       worker->run({std::span(order_).subspan(begin, end - begin), first_sample, samples},
                   {radiance_.data() + at, faulted_.data() + at, first_.empty() ? nullptr : first_.data() + at});
       progress_.paths_done += (end - begin) * samples;
+      progress_.rays_done += worker->stats().rays - rays_before;
     };
     arena_.execute([&] {
       tbb::parallel_for(
@@ -204,7 +208,8 @@ private:
     r.picture = film_->picture();
     r.samples = film_->samples();
     r.mean_samples = film_->mean_samples();
-    r.interrupted = progress_.cancel && !finished();
+    r.finished = finished();
+    r.interrupted = progress_.cancel && !r.finished;
     r.threads = unsigned(workers_.size());
     r.stats = totals_;
     r.faults = faults_;
@@ -239,6 +244,11 @@ private:
 };
 
 } // namespace
+
+size_t render_bytes_per_pixel(FilmContents contents) {
+  size_t sample = sizeof(Vec3) + 1 + (contents.first ? sizeof(FirstHit) : 0); // of the pass in hand
+  return Film::bytes_per_pixel(contents) + sample + sizeof(uint32_t) + sizeof(Vec3) + 6;
+}
 
 RenderResult render(const PreparedScene& scene, const RenderOptions& options, RenderProgress& progress) {
   return Render(scene, options, progress).run();

@@ -35,8 +35,8 @@ struct RenderOptions {
   std::optional<Crop> crop = std::nullopt; ///< within the image
   double noise = 0;                        ///< stop where the estimated error is less (adaptive.h); 0: never
   FilmContents contents = {};
-  /// Called after each pass, by the thread that called render().
-  std::function<void(RenderState&)> after_pass = nullptr;
+  /// Called after each pass by the thread that called render(), and, with `ended`, where it stops before its end.
+  std::function<void(RenderState&, bool ended)> after_pass = nullptr;
   /// Where to go on from: what RenderState::exchange wrote. A failed archive ends the render without a sample.
   Archive* resume = nullptr;
 };
@@ -46,7 +46,7 @@ struct RenderProgress {
   std::atomic<uint64_t> paths_done{0};
   std::atomic<uint64_t> paths_total{0};
   std::atomic<uint64_t> paths_resumed{0}; ///< those of `paths_done` that an earlier run did
-  std::atomic<uint64_t> rays_done{0};
+  std::atomic<uint64_t> rays_done{0}, rays_resumed{0};
   std::atomic<uint32_t> samples_done{0};
   std::atomic<bool> cancel{false};
 };
@@ -57,12 +57,16 @@ struct RenderResult {
   uint32_t samples = 0;       ///< of every pixel, or, with `noise`, of those that took the most
   double mean_samples = 0;
   bool interrupted = false;
+  bool finished = false; ///< nothing is left to do: neither interrupted nor out of time
   double seconds = 0;
   WorkerStats stats;
   FaultLog faults;
   uint64_t fault_count = 0;
   unsigned threads = 1;
 };
+
+/// Memory that rendering takes for each pixel, the picture and its encoding included.
+size_t render_bytes_per_pixel(FilmContents contents);
 
 RenderResult render(const PreparedScene& scene, const RenderOptions& options, RenderProgress& progress);
 

@@ -1,9 +1,12 @@
 #include "renderer/film/image_file.h"
 
+#include "renderer/sampling/sampler.h"
 #include "renderer/test_support.h"
 
 #include <OpenImageIO/imageio.h>
+#include <csignal>
 #include <gmock/gmock.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 namespace moonshade::renderer {
@@ -13,7 +16,7 @@ using ::testing::HasSubstr;
 using testing::TemporaryFolder;
 
 const Picture kPicture{2, 2, {Vec3(0), Vec3(0.5f), Vec3(3), Vec3(0.25f, 0.5f, 1)}};
-const ImageMetadata kMetadata{"moonshade test", "scene.lua", 7, 16, 1.5, true, 0};
+const ImageMetadata kMetadata{"moonshade test", {{"scene", "scene.lua"}, {"samples", "16"}, {"interrupted", "yes"}}};
 
 size_t files_in(const TemporaryFolder& folder) {
   size_t count = 0;
@@ -46,7 +49,9 @@ TEST(ImageFile, WritesEveryFormatWithMetadata) {
     std::string description = spec.get_string_attribute("ImageDescription");
     EXPECT_THAT(description, HasSubstr("scene.lua")) << ending;
     EXPECT_THAT(description, HasSubstr("samples 16")) << ending;
-    EXPECT_THAT(description, HasSubstr("interrupted")) << ending;
+    EXPECT_THAT(description, HasSubstr("interrupted yes")) << ending;
+    EXPECT_EQ(read_fact(path, "samples"), "16") << ending;
+    EXPECT_EQ(read_fact(path, "nothing"), "") << ending;
   }
   EXPECT_EQ(files_in(folder), 5u); // no temporary file is left
 }
@@ -108,16 +113,96 @@ TEST(ImageFile, RefusesPlacesThatCannotBeWrittenBeforeTheWork) {
   }
 }
 
-TEST(ImageFile, KeepsTheOldFileAndLeavesNothingWhereNothingIsWritten) {
+TEST(ImageFile, LeavesTheOldFileAloneUntilThereIsANewOne) {
   TemporaryFolder folder;
   folder.write("a.png", "old");
-  {
-    ImageFile file;
-    ASSERT_EQ(file.open(folder / "a.png"), "");
-    EXPECT_EQ(files_in(folder), 2u);
-  }
-  EXPECT_EQ(files_in(folder), 1u);
+  ImageFile file;
+  ASSERT_EQ(file.open(folder / "a.png"), "");
+  EXPECT_EQ(files_in(folder), 1u); // nothing to leave behind, however the program ends
   EXPECT_EQ(read_file(folder / "a.png").text, "old");
+  std::filesystem::remove(folder / "a.png");
+  std::filesystem::create_directory(folder / "a.png"); // meanwhile
+  EXPECT_THAT(file.write(kPicture, {}, kMetadata), HasSubstr("a.png: "));
+  EXPECT_EQ(files_in(folder), 1u);
+}
+
+TEST(ImageFile, TellsOfTheTemporaryFileWhileThereIsOne) {
+  TemporaryFolder folder;
+  ImageFile file;
+  ASSERT_EQ(file.open(folder / "a.png"), "");
+  std::vector<std::string> told;
+  auto tell = [&](const char* name) {
+    told.push_back(name ? name : "none");
+    if (name) EXPECT_TRUE(std::filesystem::exists(name));
+  };
+  ASSERT_EQ(file.write(kPicture, {}, kMetadata, {}, {}, tell), "");
+  ASSERT_EQ(told.size(), 2u);
+  EXPECT_THAT(told[0], HasSubstr("a.png."));
+  EXPECT_EQ(told[1], "none");
+}
+
+TEST(ImageFile, ReportsAFullDisk) {
+  // A limit on the size of files stands in: writing fails as on a full disk, at the same places.
+  TemporaryFolder folder;
+  Picture noise{256, 256, {}};
+  for (uint32_t k = 0; k < 256 * 256; ++k)
+    noise.pixels.push_back(Vec3(unit_float(hash32(k)), unit_float(hash32(k + 77777)), unit_float(hash32(~k))));
+  std::signal(SIGXFSZ, SIG_IGN);
+  rlimit before{};
+  getrlimit(RLIMIT_FSIZE, &before);
+  for (const char* ending : {"png", "exr", "tif", "hdr", "jpg"}) {
+    ImageFile file;
+    ASSERT_EQ(file.open(folder / ("a." + std::string(ending))), "");
+    rlimit limit{16384, before.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &limit);
+    std::string error = file.write(noise, {}, kMetadata);
+    setrlimit(RLIMIT_FSIZE, &before);
+    EXPECT_NE(error, "") << ending;
+  }
+  EXPECT_EQ(files_in(folder), 0u);
+}
+
+TEST(ImageFile, PutsAovsIntoExrUnderTheirNames) {
+  TemporaryFolder folder;
+  Film film(2, 1, {.squares = true, .first = true});
+  Vec3 radiance[] = {Vec3(1, 2, 3), Vec3(3, 2, 1)};
+  uint8_t faulted[] = {0, 1};
+  FirstHit first[] = {{Vec3(0.5f), Vec3(0, 1, 0), Vec3(1, 2, 3), 4, 7, 3000000007},
+                      {Vec3(1, 0, 0), Vec3(0, 0, 1), Vec3(4, 5, 6), 3, 8, 9}};
+  film.add(0, {radiance, faulted, first}, 0, 2);
+  AovList aovs;
+  ASSERT_EQ(parse_aovs("all", aovs), "");
+  ImageFile file;
+  ASSERT_EQ(file.open(folder / "a.exr"), "");
+  ASSERT_EQ(file.write(film.picture(), {}, kMetadata, {&film, aovs}, {5, 6, 20, 30}), "");
+  auto input = OIIO::ImageInput::open(folder / "a.exr");
+  ASSERT_TRUE(input);
+  const OIIO::ImageSpec& spec = input->spec();
+  EXPECT_EQ(spec.x, 5);
+  EXPECT_EQ(spec.full_height, 30);
+  std::vector<float> pixels(size_t(2 * spec.nchannels));
+  ASSERT_TRUE(input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, pixels.data()));
+  auto value = [&](const std::string& name) {
+    int channel = spec.channelindex(name);
+    EXPECT_GE(channel, 0) << name;
+    return channel < 0 ? -1.0f : pixels[size_t(channel)];
+  };
+  EXPECT_EQ(value("R"), 2);
+  EXPECT_EQ(value("albedo.R"), 0.75f);
+  EXPECT_EQ(value("N.Y"), 0.5f);
+  EXPECT_EQ(value("Z"), 3);
+  EXPECT_EQ(value("P.Z"), 6);
+  EXPECT_EQ(value("variance.R"), 1);
+  EXPECT_EQ(value("faults"), 0.5f);
+  EXPECT_EQ(spec.channelformat(spec.channelindex("id.object")), OIIO::TypeDesc::UINT32);
+  std::vector<uint32_t> ids(2);
+  int at = spec.channelindex("id.material");
+  ASSERT_TRUE(input->read_image(0, 0, at, at + 1, OIIO::TypeDesc::UINT32, ids.data()));
+  EXPECT_EQ(ids[0], 9u);
+  at = spec.channelindex("sampleCount");
+  ASSERT_TRUE(input->read_image(0, 0, at, at + 1, OIIO::TypeDesc::UINT32, ids.data()));
+  EXPECT_EQ(ids[0], 2u);
+  EXPECT_EQ(ids[1], 0u);
 }
 
 } // namespace

@@ -43,7 +43,9 @@ ResolvedPath Folders::resolve(const std::string& base_folder, const std::string&
   if (!inside) return {"", "'" + name + "' lies outside the folders of the scene"};
   if (!fs::exists(real, error)) return {"", "there is no file '" + name + "'"};
   if (!fs::is_regular_file(real, error)) return {"", "'" + name + "' is not a file"};
-  return {path.lexically_normal().string(), ""};
+  std::string normal = path.lexically_normal().string();
+  used_.insert(normal);
+  return {std::move(normal), ""};
 }
 
 FileText read_file(const std::string& path, uint64_t limit) {

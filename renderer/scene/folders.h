@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -22,8 +23,12 @@ public:
   /// The file `name` as written in a file that lies in `base_folder`.
   ResolvedPath resolve(const std::string& base_folder, const std::string& name) const;
 
+  /// Every file that was resolved so far.
+  const std::set<std::string>& used() const { return used_; }
+
 private:
   std::vector<std::filesystem::path> roots_; ///< canonical
+  mutable std::set<std::string> used_;       ///< a record only: decides nothing
 };
 
 /// The folder part of a path; "." where there is none.

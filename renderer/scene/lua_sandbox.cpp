@@ -170,7 +170,7 @@ void remove(lua_State* L, const char* library, std::span<const char* const> name
 
 struct SetUp {
   std::span<const std::string_view> functions;
-  const std::map<std::string, double>* constants;
+  const SandboxConstants* constants;
 };
 
 int set_up(lua_State* L) {
@@ -215,7 +215,10 @@ int set_up(lua_State* L) {
     lua_pop(L, 1);
   }
   for (const auto& [name, value] : *facts.constants) {
-    lua_pushnumber(L, value);
+    if (const auto* integer = std::get_if<int64_t>(&value))
+      lua_pushinteger(L, *integer);
+    else
+      lua_pushnumber(L, std::get<double>(value));
     lua_setglobal(L, name.c_str());
   }
   return 0;
@@ -310,7 +313,7 @@ std::string error_text(lua_State* L, std::span<const std::string_view> functions
 } // namespace
 
 SandboxRun run_scene_file(const std::string& name, std::string_view text, std::span<const std::string_view> functions,
-                          const std::map<std::string, double>& constants, const SandboxLimits& limits) {
+                          const SandboxConstants& constants, const SandboxLimits& limits) {
   SandboxRun run;
   Budget budget{0, limits.memory_bytes, limits.instructions, limits.calls, thread_seconds() + limits.seconds, 0};
   lua_State* L = lua_newstate(allocate, &budget);

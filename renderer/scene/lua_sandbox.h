@@ -45,8 +45,10 @@ struct SandboxRun {
   std::string error;                ///< "FILE:LINE: ..."
 };
 
+using SandboxConstants = std::map<std::string, std::variant<int64_t, double>>;
+
 /// Runs `text`; `functions` are the names it may call, `constants` what it may read.
 SandboxRun run_scene_file(const std::string& name, std::string_view text, std::span<const std::string_view> functions,
-                          const std::map<std::string, double>& constants, const SandboxLimits& limits = {});
+                          const SandboxConstants& constants, const SandboxLimits& limits = {});
 
 } // namespace moonshade::renderer

@@ -82,15 +82,13 @@ void SceneBuilder::render(SceneFields& fields) {
   if (has_render_) fields.fail("a scene has one render");
   has_render_ = true;
   Settings& s = scene_.settings;
-  static constexpr std::string_view kIntegrators[] = {"path", "whitted"};
-  static constexpr std::string_view kTonemaps[] = {"none", "filmic"};
   s.width = int(fields.integer("width", s.width, 1, 65536));
   s.height = int(fields.integer("height", s.height, 1, 65536));
   s.samples = uint32_t(fields.integer("samples", s.samples, 1, 1 << 24));
   s.seed = uint32_t(fields.integer("seed", s.seed, 0, UINT32_MAX));
   s.depth = uint32_t(fields.integer("depth", s.depth, 1, 1024));
-  s.integrator = IntegratorKind(fields.choice("integrator", kIntegrators));
-  s.tonemap = Tonemap(fields.choice("tonemap", kTonemaps));
+  s.integrator = IntegratorKind(fields.choice("integrator", kIntegratorNames));
+  s.tonemap = Tonemap(fields.choice("tonemap", kTonemapNames));
   s.exposure = float(fields.number("exposure", s.exposure, -100, 100));
   s.clamp = float(fields.number("clamp", s.clamp, 0));
   s.time = fields.number("time", s.time);
@@ -358,8 +356,10 @@ SceneReading SceneBuilder::build(SandboxRun run) {
 
 } // namespace
 
-SceneReading parse_lua_scene(const std::string& path, std::string_view text, const Folders& folders) {
-  return SceneBuilder(path, folders).build(run_scene_file(path, text, kFunctions, {{"time", 0.0}, {"frame", 0.0}}));
+SceneReading parse_lua_scene(const std::string& path, std::string_view text, const Folders& folders,
+                             const Animation& animation) {
+  SandboxConstants constants = {{"time", animation.time}, {"frame", animation.frame.value_or(0)}};
+  return SceneBuilder(path, folders).build(run_scene_file(path, text, kFunctions, constants));
 }
 
 } // namespace moonshade::renderer

@@ -6,12 +6,19 @@
 #include "renderer/scene/scene.h"
 
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 
 namespace moonshade::renderer {
 
-/// The scene may read the constants `time` and `frame`, both 0 until there is animation.
-SceneReading parse_lua_scene(const std::string& path, std::string_view text, const Folders& folders);
+/// The moment to describe; the scene reads it as `time` and `frame`.
+struct Animation {
+  std::optional<int64_t> frame = std::nullopt; ///< nothing: a single picture, and `render` may set both
+  double time = 0;                             ///< seconds
+};
+
+SceneReading parse_lua_scene(const std::string& path, std::string_view text, const Folders& folders,
+                             const Animation& animation = {});
 
 } // namespace moonshade::renderer

@@ -69,9 +69,7 @@ static SceneReading scene_of_obj(const std::string& path, const Folders& folders
   return reading;
 }
 
-SceneReading read_scene(const std::string& path) {
-  Folders folders;
-  folders.allow_folder_of(path);
+static SceneReading read_any(const std::string& path, const Animation& animation, const Folders& folders) {
   std::string ending = std::filesystem::path(path).extension().string();
   for (char& c : ending)
     c = char(std::tolower((unsigned char)c));
@@ -79,7 +77,19 @@ SceneReading read_scene(const std::string& path) {
   if (ending != ".lua") return {std::nullopt, path + ": neither a Lua scene (.lua) nor a model (.obj)", {}};
   FileText file = read_file(path, uint64_t(64) << 20);
   if (!file.error.empty()) return {std::nullopt, file.error, {}};
-  return parse_lua_scene(path, file.text, folders);
+  return parse_lua_scene(path, file.text, folders, animation);
+}
+
+SceneReading read_scene(const std::string& path, const Animation& animation) {
+  Folders folders;
+  folders.allow_folder_of(path);
+  SceneReading reading = read_any(path, animation, folders);
+  if (!reading.scene) return reading;
+  reading.scene->files.assign(folders.used().begin(), folders.used().end());
+  if (!animation.frame) return reading;
+  reading.scene->settings.frame = *animation.frame;
+  reading.scene->settings.time = animation.time;
+  return reading;
 }
 
 } // namespace moonshade::renderer

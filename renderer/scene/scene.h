@@ -11,6 +11,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace moonshade::renderer {
@@ -105,6 +106,9 @@ struct Camera {
 
 enum class IntegratorKind : uint8_t { Path, Whitted };
 enum class Tonemap : uint8_t { None, Filmic };
+/// Their names in scenes and on the command line, in the order of the enumerations.
+inline constexpr std::string_view kIntegratorNames[] = {"path", "whitted"};
+inline constexpr std::string_view kTonemapNames[] = {"none", "filmic"};
 
 struct Settings {
   int width = 1280, height = 720;
@@ -121,6 +125,7 @@ struct Settings {
 
 struct Scene {
   std::string file;
+  std::vector<std::string> files; ///< all that it names: models, shaders, images
   Camera camera;
   std::vector<Object> objects;
   std::vector<Material> materials; ///< never empty: [0] is the default

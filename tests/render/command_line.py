@@ -64,8 +64,7 @@ with tempfile.TemporaryDirectory() as folder:
     run(bumpy, "-o", image, "--crop=0,0,4000,4000", status=2, error="--crop lies outside the image")
     run(bumpy, "-o", os.path.join(folder, "none/a.png"), status=3, error="No such file")
     run(bumpy, "-o", image, f"--stats={folder}/none/s.json", status=3, error="none/s.json: No such file")
-    for option in ("--noise=0.1", "--frames=1-2", "--fps=24", "--preview=x.png", "--tev", "--cache-dir=x", "--no-cache",
-                   "--bake", "--aov=depth", "--resume", "--checkpoint=5", "--integrator=sppm", "--integrator=irradiance"):
+    for option in ("--cache-dir=x", "--no-cache", "--bake", "--integrator=sppm", "--integrator=irradiance"):
         run(bumpy, "-o", image, option, status=2, error="not available yet")
     check(os.listdir(folder) == [], f"files are left: {os.listdir(folder)}")
 
@@ -143,7 +142,7 @@ with tempfile.TemporaryDirectory() as folder:
     message = process.communicate(timeout=600)[1]
     check(process.returncode == 130, f"interrupted: exit {process.returncode}")
     check("interrupted; the image has" in message, f"interrupted: {message}")
-    check(b"interrupted" in bytes_of(image), "the metadata do not say interrupted")
+    check(b"interrupted yes" in bytes_of(image), "the metadata do not say interrupted")
     check(sorted(os.listdir(folder)) == ["a.exr", "a.jpg", "a.png", "stats.json"], f"files: {os.listdir(folder)}")
 
 print("ok" if failures == 0 else f"{failures} failures")

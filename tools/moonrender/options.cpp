@@ -1,11 +1,12 @@
-// Options are declared in groups, as --help shows them. Those that the contract has and the renderer not yet are known,
-// too, so that they get an honest answer.
+// Options are declared in groups, as --help shows them, taken as texts and converted once all are there. Those that the
+// contract has and the renderer not yet are known, too, so that they get an honest answer.
 #include "tools/moonrender/options.h"
 
 #include "renderer/film/image_file.h"
 #include "renderer/scene/nearest_name.h"
+#include "tools/support/arguments.h"
+#include "tools/support/exit_status.h"
 
-#include <CLI/CLI.hpp>
 #include <charconv>
 #include <iostream>
 
@@ -13,29 +14,30 @@ namespace moonshade::moonrender {
 
 namespace {
 
+using tools::UsageError;
+
 constexpr const char* kExamples = R"(Examples:
   moonrender teapot.obj -o teapot.png                     a bare model: framed, under sun and sky
   moonrender copper.lua --size=640x360 --spp=16 -o a.png  a quick look
   moonrender copper.lua --integrator=whitted -o b.png     direct light and mirrors only
   moonrender copper.lua --time=60 --spp=9999 -o c.exr     what a minute gives, as linear floats
+  moonrender copper.lua --noise=0.005 --spp=4096 -o c.png until the noise is half a per cent of white
+  moonrender copper.lua --aov=albedo,normal -o c.exr      with what a denoiser needs
+  moonrender waves.lua --frames=1-240 -o waves.%04d.png   an animation, 24 frames a second
+  moonrender copper.lua --checkpoint=60 --resume -o c.exr goes on where it was, whatever ended it
   moonrender copper.lua -D copper.scale=12 -o d.png       a parameter of the material 'copper'
   moonrender copper.lua --backend=interp -o e.png         the same shaders in stock Lua
 
 Exit status: 0 done, 1 the scene is at fault, 2 the call is, 3 the machine is, 130 interrupted (the picture then holds
 the passes done).)";
 
-constexpr const char* kNotYet[] = {"--noise",    "--frames", "--fps", "--preview", "--tev",       "--cache-dir",
-                                   "--no-cache", "--bake",   "--aov", "--resume",  "--checkpoint"};
-
-struct UsageError {
-  std::string message;
-};
+constexpr const char* kNotYet[] = {"--cache-dir", "--no-cache", "--bake"};
 
 template <typename T> T number(std::string_view text, const char* what) {
   T value{};
   auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size())
-    throw UsageError{std::string(what) + ": '" + std::string(text) + "' is no number that fits"};
+    throw UsageError(std::string(what) + ": '" + std::string(text) + "' is no number that fits");
   return value;
 }
 
@@ -47,21 +49,21 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
   return parts;
 }
 
-size_t one_of(const std::string& text, const char* option, std::span<const std::string_view> words, size_t available) {
-  for (size_t i = 0; i < words.size(); ++i) {
-    if (text != words[i]) continue;
-    if (i >= available) throw UsageError{std::string(option) + "=" + text + ": not available yet"};
-    return i;
-  }
-  throw UsageError{std::string(option) + ": unknown '" + text + "'" + renderer::did_you_mean(text, words) +
-                   " (known: " + renderer::join_names(words) + ")"};
+size_t one_of(const std::string& text, const char* option, std::span<const std::string_view> words,
+              std::span<const std::string_view> later = {}) {
+  for (size_t i = 0; i < words.size(); ++i)
+    if (text == words[i]) return i;
+  for (std::string_view word : later)
+    if (text == word) throw UsageError(std::string(option) + "=" + text + ": not available yet");
+  throw UsageError(std::string(option) + ": unknown '" + text + "'" + renderer::did_you_mean(text, words) +
+                   " (known: " + renderer::join_names(words) + ")");
 }
 
 /// Texts of options, as given.
 struct Given {
-  std::string size, crop, integrator, tonemap, backend, precision, width;
+  std::string size, crop, integrator, tonemap, backend, precision, width, aovs, frames, tev;
   std::optional<int64_t> samples, seed, threads, depth;
-  std::optional<double> time, exposure, clamp;
+  std::optional<double> time, exposure, clamp, noise, checkpoint, fps;
   std::vector<std::string> defines;
 };
 
@@ -73,7 +75,7 @@ std::string short_text(double value) {
 
 template <typename T> T in_range(double value, double low, double high, const char* option) {
   if (!(value >= low && value <= high))
-    throw UsageError{std::string(option) + " lies between " + short_text(low) + " and " + short_text(high)};
+    throw UsageError(std::string(option) + " lies between " + short_text(low) + " and " + short_text(high));
   return T(value);
 }
 
@@ -81,20 +83,20 @@ void define(Options& options, const std::string& text) {
   size_t equals = text.find('=');
   size_t dot = text.rfind('.', equals);
   if (equals == std::string::npos || dot == std::string::npos || dot == 0 || dot + 1 == equals)
-    throw UsageError{"-D " + text + ": expected MATERIAL.NAME=VALUE"};
+    throw UsageError("-D " + text + ": expected MATERIAL.NAME=VALUE");
   options.overrides[text.substr(0, dot)][text.substr(dot + 1, equals - dot - 1)] = text.substr(equals + 1);
 }
 
 void size_and_crop(const Given& given, Options& options) {
   if (!given.size.empty()) {
     auto parts = split(given.size, 'x');
-    if (parts.size() != 2) throw UsageError{"--size: expected WxH, as in 1280x720"};
+    if (parts.size() != 2) throw UsageError("--size: expected WxH, as in 1280x720");
     options.width = in_range<int>(number<int>(parts[0], "--size"), 1, 65536, "--size");
     options.height = in_range<int>(number<int>(parts[1], "--size"), 1, 65536, "--size");
   }
   if (!given.crop.empty()) {
     auto parts = split(given.crop, ',');
-    if (parts.size() != 4) throw UsageError{"--crop: expected X,Y,W,H"};
+    if (parts.size() != 4) throw UsageError("--crop: expected X,Y,W,H");
     options.render.crop = {number<int>(parts[0], "--crop"), number<int>(parts[1], "--crop"),
                            number<int>(parts[2], "--crop"), number<int>(parts[3], "--crop")};
   }
@@ -104,32 +106,47 @@ void shader_options(const Given& given, Options& options) {
   static constexpr std::string_view kBackends[] = {"jit", "interp"};
   static constexpr std::string_view kPrecisions[] = {"f32", "f64"};
   if (!given.backend.empty())
-    options.shaders.backend = renderer::Backend(one_of(given.backend, "--backend", kBackends, 2));
+    options.shaders.backend = renderer::Backend(one_of(given.backend, "--backend", kBackends));
   if (!given.precision.empty())
-    options.shaders.precision =
-        one_of(given.precision, "--precision", kPrecisions, 2) ? Precision::F64 : Precision::F32;
+    options.shaders.precision = one_of(given.precision, "--precision", kPrecisions) ? Precision::F64 : Precision::F32;
   if (given.width.empty() || given.width == "auto") return;
   options.shaders.width = number<unsigned>(given.width, "--width");
   if (std::find(kWidths.begin(), kWidths.end(), options.shaders.width) == kWidths.end())
-    throw UsageError{"--width: expected auto, 1, 4, 8, 16 or 32"};
+    throw UsageError("--width: expected auto, 1, 4, 8, 16 or 32");
+}
+
+void animation(const Given& given, Options& options) {
+  if (given.fps && given.frames.empty()) throw UsageError("--fps stands with --frames");
+  if (given.frames.empty()) return;
+  Frames frames;
+  if (std::string error = parse_frames(given.frames, frames); !error.empty()) throw UsageError(error);
+  if (given.fps) frames.per_second = in_range<double>(*given.fps, 1e-6, 1e6, "--fps");
+  options.frames = frames;
 }
 
 /// Texts to values.
 void convert(const Given& given, Options& options) {
-  static constexpr std::string_view kIntegrators[] = {"path", "whitted", "sppm", "irradiance"};
-  static constexpr std::string_view kTonemaps[] = {"none", "filmic"};
+  static constexpr std::string_view kLaterIntegrators[] = {"sppm", "irradiance"};
   size_and_crop(given, options);
   shader_options(given, options);
+  animation(given, options);
   if (!given.integrator.empty())
-    options.integrator = renderer::IntegratorKind(one_of(given.integrator, "--integrator", kIntegrators, 2));
-  if (!given.tonemap.empty()) options.tonemap = renderer::Tonemap(one_of(given.tonemap, "--tonemap", kTonemaps, 2));
+    options.integrator = renderer::IntegratorKind(
+        one_of(given.integrator, "--integrator", renderer::kIntegratorNames, kLaterIntegrators));
+  if (!given.tonemap.empty())
+    options.tonemap = renderer::Tonemap(one_of(given.tonemap, "--tonemap", renderer::kTonemapNames));
   if (given.samples) options.samples = in_range<uint32_t>(double(*given.samples), 1, 1 << 24, "--spp");
   if (given.seed) options.seed = in_range<uint32_t>(double(*given.seed), 0, UINT32_MAX, "--seed");
   if (given.depth) options.depth = in_range<uint32_t>(double(*given.depth), 1, 1024, "--depth");
   if (given.threads) options.render.threads = in_range<unsigned>(double(*given.threads), 1, 1024, "--threads");
   if (given.time) options.render.seconds = in_range<double>(*given.time, 0, 1e9, "--time");
+  if (given.noise) options.render.noise = in_range<double>(*given.noise, 0, 1, "--noise");
+  if (given.checkpoint) options.checkpoint = in_range<double>(*given.checkpoint, 0, 1e9, "--checkpoint");
   if (given.exposure) options.exposure = in_range<float>(*given.exposure, -100, 100, "--exposure");
   if (given.clamp) options.clamp = in_range<float>(*given.clamp, 0, 1e30, "--clamp");
+  if (!given.aovs.empty())
+    if (std::string error = renderer::parse_aovs(given.aovs, options.aovs); !error.empty()) throw UsageError(error);
+  options.render.contents = renderer::contents_for(options.aovs);
   for (const std::string& text : given.defines)
     define(options, text);
 }
@@ -138,15 +155,89 @@ void refuse_what_is_not_there(int argc, char** argv) {
   for (int i = 1; i < argc && std::string_view(argv[i]) != "--"; ++i) {
     std::string_view name = std::string_view(argv[i]).substr(0, std::string_view(argv[i]).find('='));
     for (const char* option : kNotYet)
-      if (name == option) throw UsageError{std::string(option) + ": not available yet"};
+      if (name == option) throw UsageError(std::string(option) + ": not available yet");
   }
 }
 
+void check_image(const std::string& option, const std::string& name) {
+  if (renderer::ImageFile::format_of(name).empty())
+    throw UsageError(option + name + ": the ending is none of png, exr, jpg, tif, hdr");
+}
+
 void check(const Options& options) {
-  if (options.scene.empty()) throw UsageError{"no scene: moonrender SCENE.lua|MODEL.obj [options] -o IMAGE"};
-  if (options.output.empty()) throw UsageError{"no output: give -o IMAGE (png, exr, jpg, tif or hdr)"};
-  if (renderer::ImageFile::format_of(options.output).empty())
-    throw UsageError{options.output + ": the ending is none of png, exr, jpg, tif, hdr"};
+  if (options.scene.empty()) throw UsageError("no scene: moonrender SCENE.lua|MODEL.obj [options] -o IMAGE");
+  if (options.output.empty()) throw UsageError("no output: give -o IMAGE (png, exr, jpg, tif or hdr)");
+  check_image("", options.output);
+  if (!options.preview.empty()) check_image("--preview=", options.preview);
+  if (!options.aovs.empty() && renderer::ImageFile::format_of(options.output) != "exr")
+    throw UsageError("--aov: only EXR holds such channels; give -o FILE.exr");
+  if (options.frames && options.frames->first != options.frames->last && !has_frame_number(options.output))
+    throw UsageError("--frames: the images need a place for their number; give -o NAME.%04d.png, say");
+  if (options.preview == options.output) throw UsageError("--preview: the preview is another file than the image");
+}
+
+void add_output_options(CLI::App& app, Options& options, Given& given) {
+  const char* group = "Output";
+  app.add_option("-o", options.output, "Image to write: png, exr, jpg, tif, hdr; %04d is the frame's number")
+      ->option_text("FILE")
+      ->group(group);
+  app.add_option("--size", given.size, "Extent in pixels (1280x720)")->option_text("WxH")->group(group);
+  app.add_option("--crop", given.crop, "Render this part of the image only")->option_text("X,Y,W,H")->group(group);
+  app.add_option("--aov", given.aovs,
+                 "More channels in EXR: albedo, normal, depth, position, id (object, material), variance, samples, "
+                 "faults; or all")
+      ->option_text("NAME,...")
+      ->group(group);
+  app.add_option("--exposure", given.exposure, "Brighten 8- and 16-bit files")->option_text("STOPS")->group(group);
+  app.add_option("--tonemap", given.tonemap, "Of 8- and 16-bit files")->option_text("none|filmic")->group(group);
+  app.add_option("--stats", options.stats, "Times and counts as JSON (- = standard output)")
+      ->option_text("FILE.json")
+      ->group(group);
+}
+
+void add_render_options(CLI::App& app, Given& given) {
+  const char* group = "Rendering";
+  app.add_option("--spp", given.samples, "Samples a pixel (64), at most")->option_text("N")->group(group);
+  app.add_option("--time", given.time, "Stop after this time")->option_text("SECONDS")->group(group);
+  app.add_option("--noise", given.noise, "Stop where the estimated error is less; 0.01 is a hundredth of white")
+      ->option_text("LEVEL")
+      ->group(group);
+  app.add_option("--seed", given.seed, "Of the random numbers (0)")->option_text("N")->group(group);
+  app.add_option("--threads", given.threads, "Threads (all)")->option_text("N")->group(group);
+  app.add_option("--integrator", given.integrator, "How light is followed (path)")
+      ->option_text("path|whitted")
+      ->group(group);
+  app.add_option("--depth", given.depth, "Segments a path may have (8)")->option_text("N")->group(group);
+  app.add_option("--clamp", given.clamp, "Bound of a sample's radiance (none)")->option_text("L")->group(group);
+  group = "Animation";
+  app.add_option("--frames", given.frames, "Render these frames of the scene")->option_text("A[-B]")->group(group);
+  app.add_option("--fps", given.fps, "Frames a second (24): `time` is frame / fps")->option_text("N")->group(group);
+}
+
+void add_long_render_options(CLI::App& app, Options& options, Given& given) {
+  const char* group = "Long renders";
+  app.add_option("--checkpoint", given.checkpoint, "Save the work every so often, to FILE.checkpoint beside the image")
+      ->option_text("SECONDS")
+      ->group(group);
+  app.add_flag("--resume", options.resume, "Go on from the checkpoint, where there is one")->group(group);
+  app.add_option("--preview", options.preview, "Refresh this image while rendering")->option_text("FILE")->group(group);
+  app.add_flag("--tev{}", given.tev, "Show the picture in the viewer tev while it renders (127.0.0.1:14158)")
+      ->option_text("[=HOST:PORT]")
+      ->group(group);
+}
+
+void add_shader_options(CLI::App& app, Given& given) {
+  const char* group = "Shaders";
+  app.add_option("--backend", given.backend, "jit: compiled; interp: in stock Lua 5.4")
+      ->option_text("jit|interp")
+      ->group(group);
+  app.add_option("--precision", given.precision, "Of numbers (f32)")->option_text("f32|f64")->group(group);
+  app.add_option("--width", given.width, "Lanes (auto)")->option_text("auto|1|4|8|16|32")->group(group);
+  app.add_option("-D", given.defines, "Set a parameter of a material's shader")
+      ->option_text("MATERIAL.NAME=VALUE")
+      ->allow_extra_args(false)
+      ->take_all()
+      ->group(group);
 }
 
 } // namespace
@@ -157,55 +248,22 @@ ParsedOptions parse_options(int argc, char** argv) {
   CLI::App app{"moonrender SCENE.lua|MODEL.obj [options] -o IMAGE: renders a scene with compiled Lua shaders",
                "moonrender"};
   app.footer(kExamples);
-  app.set_help_flag("--help,-h", "show this help");
-  app.set_version_flag("--version", version(), "show the version");
+  app.set_help_flag("--help,-h", "Print this help");
+  app.set_version_flag("--version", version(), "Print the version");
   app.option_defaults()->take_last(); // of an option given twice, as compilers do
-  app.add_option("scene", options.scene, "a Lua scene, or an OBJ model")->type_name("SCENE");
-
-  app.add_option("-o", options.output, "image to write: png, exr, jpg, tif, hdr")->type_name("FILE")->group("Output");
-  app.add_option("--size", given.size, "extent in pixels (1280x720)")->type_name("WxH")->group("Output");
-  app.add_option("--crop", given.crop, "render this part of the image only")->type_name("X,Y,W,H")->group("Output");
-  app.add_option("--exposure", given.exposure, "brighten 8- and 16-bit files")->type_name("STOPS")->group("Output");
-  app.add_option("--tonemap", given.tonemap, "of 8- and 16-bit files: none or filmic")
-      ->type_name("CURVE")
-      ->group("Output");
-  app.add_option("--stats", options.stats, "times and counts as JSON (- = standard output)")
-      ->type_name("FILE.json")
-      ->group("Output");
-
-  app.add_option("--spp", given.samples, "samples a pixel (64)")->type_name("N")->group("Rendering");
-  app.add_option("--time", given.time, "stop after this time")->type_name("SECONDS")->group("Rendering");
-  app.add_option("--seed", given.seed, "of the random numbers (0)")->type_name("N")->group("Rendering");
-  app.add_option("--threads", given.threads, "threads (all)")->type_name("N")->group("Rendering");
-  app.add_option("--integrator", given.integrator, "path or whitted")->type_name("NAME")->group("Rendering");
-  app.add_option("--depth", given.depth, "segments a path may have (8)")->type_name("N")->group("Rendering");
-  app.add_option("--clamp", given.clamp, "bound of a sample's radiance (none)")->type_name("L")->group("Rendering");
-
-  app.add_option("--backend", given.backend, "jit: compiled; interp: in stock Lua 5.4")
-      ->type_name("NAME")
-      ->group("Shaders");
-  app.add_option("--precision", given.precision, "f32 or f64")->type_name("P")->group("Shaders");
-  app.add_option("--width", given.width, "lanes: auto, 1, 4, 8, 16 or 32")->type_name("N")->group("Shaders");
-  app.add_option("-D", given.defines, "set a parameter of a material's shader")
-      ->type_name("MATERIAL.NAME=VALUE")
-      ->allow_extra_args(false)
-      ->take_all()
-      ->group("Shaders");
-
-  try {
-    refuse_what_is_not_there(argc, argv);
-    app.parse(argc, argv);
+  app.add_option("SCENE", options.scene, "A Lua scene, or a model")->option_text("SCENE.lua|MODEL.obj");
+  add_output_options(app, options, given);
+  add_render_options(app, given);
+  add_long_render_options(app, options, given);
+  add_shader_options(app, given);
+  app.preparse_callback([&](size_t) { refuse_what_is_not_there(argc, argv); });
+  app.parse_complete_callback([&] {
+    if (app.count("--tev") > 0) options.tev = given.tev == "true" ? "" : given.tev;
     convert(given, options);
     check(options);
-  } catch (const UsageError& error) {
-    std::cerr << "moonrender: error: " << error.message << "\n";
-    return {std::nullopt, 2};
-  } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return {std::nullopt, app.exit(error)};
-    std::cerr << "moonrender: error: " << error.what() << "\n";
-    return {std::nullopt, 2};
-  }
-  return {options, 0};
+  });
+  if (const auto status = tools::parse_arguments(app, argc, argv, "moonrender")) return {std::nullopt, *status};
+  return {options, tools::kDone};
 }
 
 std::string apply(const Options& options, renderer::Settings& settings) {

@@ -23,9 +23,10 @@ std::string duration(double seconds) {
 
 } // namespace
 
-ProgressDisplay::ProgressDisplay(const renderer::RenderProgress& progress, uint32_t samples, double time_limit)
-    : progress_(progress), samples_(samples), time_limit_(time_limit), terminal_(::isatty(STDERR_FILENO) == 1),
-      thread_([this] { run(); }) {}
+ProgressDisplay::ProgressDisplay(const renderer::RenderProgress& progress, uint32_t samples, double time_limit,
+                                 std::string what)
+    : progress_(progress), samples_(samples), time_limit_(time_limit), what_(std::move(what)),
+      terminal_(::isatty(STDERR_FILENO) == 1), thread_([this] { run(); }) {}
 
 ProgressDisplay::~ProgressDisplay() {
   {
@@ -43,10 +44,8 @@ void ProgressDisplay::run() {
   std::unique_lock lock(mutex_);
   while (!wake_.wait_for(lock, std::chrono::milliseconds(terminal_ ? 150 : 500), [this] { return done_; })) {
     double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    uint64_t total = progress_.paths_total;
-    if (total == 0) continue;
-    double share = double(progress_.paths_done) / double(total);
-    if (time_limit_ > 0) share = std::max(share, std::min(1.0, elapsed / time_limit_));
+    if (progress_.paths_total == 0) continue;
+    double share = this->share(elapsed);
     if (terminal_) {
       draw_bar(share, elapsed);
     } else if (elapsed >= next_line) {
@@ -56,21 +55,34 @@ void ProgressDisplay::run() {
   }
 }
 
+double ProgressDisplay::share(double elapsed) const {
+  double share = double(progress_.paths_done) / double(progress_.paths_total);
+  if (time_limit_ > 0) share = std::max(share, elapsed / time_limit_);
+  return std::min(share, 1.0);
+}
+
+std::string ProgressDisplay::facts(double share, double elapsed) const {
+  // What an earlier run has done says nothing about how fast this one is.
+  double before = double(progress_.paths_resumed) / double(progress_.paths_total);
+  if (time_limit_ > 0) before = 0;
+  std::string left = share > before ? duration(elapsed * (1 - share) / (share - before)) : "?";
+  char text[120];
+  std::snprintf(text, sizeof text, "%u/%u samples, %.2f M rays/s, ", unsigned(progress_.samples_done), samples_,
+                double(progress_.rays_done - progress_.rays_resumed) / elapsed * 1e-6);
+  return text + left + " left";
+}
+
 void ProgressDisplay::draw_bar(double share, double elapsed) const {
   constexpr int kCells = 32;
-  int filled = std::clamp(int(share * kCells), 0, kCells);
-  std::string bar(size_t(filled), '#');
+  std::string bar(size_t(share * kCells), '#');
   bar.resize(kCells, '.');
-  std::string left = share > 0 ? duration(elapsed / share - elapsed) : "?";
-  std::fprintf(stderr, "\r[%s] %3.0f %%  %u/%u samples  %.2f M paths/s  %s left\033[K", bar.c_str(), 100 * share,
-               unsigned(progress_.samples_done), samples_, double(progress_.paths_done) / elapsed * 1e-6, left.c_str());
+  std::fprintf(stderr, "\r%s[%s] %3.0f %%  %s\033[K", what_.c_str(), bar.c_str(), 100 * share,
+               facts(share, elapsed).c_str());
   std::fflush(stderr);
 }
 
 void ProgressDisplay::print_line(double share, double elapsed) const {
-  std::string left = share > 0 ? duration(elapsed / share - elapsed) : "?";
-  std::fprintf(stderr, "moonrender: %.0f %%, %u/%u samples, %.2f M paths/s, %s left\n", 100 * share,
-               unsigned(progress_.samples_done), samples_, double(progress_.paths_done) / elapsed * 1e-6, left.c_str());
+  std::fprintf(stderr, "moonrender: %s%.0f %%, %s\n", what_.c_str(), 100 * share, facts(share, elapsed).c_str());
 }
 
 } // namespace moonshade::moonrender

@@ -2,18 +2,16 @@
 // within shaders) are sums over the threads.
 #include "tools/moonrender/stats.h"
 
+#include "tools/support/files.h"
+
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <iostream>
 #include <nlohmann/json.hpp>
 #include <sys/resource.h>
 #include <unistd.h>
 
 namespace moonshade::moonrender {
-
-static std::string error_text() { return std::strerror(errno ? errno : EIO); }
 
 static uint64_t peak_memory_bytes() {
   rusage usage{};
@@ -47,25 +45,12 @@ std::string write_stats(const Options& options, const renderer::PreparedScene& s
   json["threads"] = result.threads;
   json["width"] = scene.materials.width();
   json["samples"] = result.samples;
+  json["mean_samples"] = result.mean_samples;
   json["interrupted"] = result.interrupted;
   json["backend"] = options.shaders.backend == renderer::Backend::Jit ? "jit" : "interp";
   std::string text = json.dump(2) + "\n";
-  if (options.stats == "-") return std::cout << text << std::flush ? "" : "standard output: " + error_text();
-  std::error_code error;
-  if (std::filesystem::exists(options.stats, error) && !std::filesystem::is_regular_file(options.stats, error)) {
-    std::ofstream device(options.stats, std::ios::binary); // not to be replaced by a file
-    return device << text << std::flush ? "" : options.stats + ": " + error_text();
-  }
-  std::string temporary = options.stats + ".tmp" + std::to_string(::getpid());
-  std::ofstream file(temporary, std::ios::binary);
-  file << text;
-  file.close();
-  if (!file || std::rename(temporary.c_str(), options.stats.c_str()) != 0) {
-    std::string message = options.stats + ": " + error_text();
-    ::unlink(temporary.c_str());
-    return message;
-  }
-  return "";
+  std::string error = tools::write_file(options.stats, text);
+  return error.empty() ? "" : (options.stats == "-" ? "standard output" : options.stats) + ": " + error;
 }
 
 } // namespace moonshade::moonrender

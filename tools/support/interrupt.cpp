@@ -3,7 +3,6 @@
 
 #include "tools/support/exit_status.h"
 
-#include <atomic>
 #include <csignal>
 #include <unistd.h>
 
@@ -11,12 +10,16 @@ namespace moonshade::tools {
 
 namespace {
 
-std::atomic<const char*> file_to_delete{nullptr};
-static_assert(std::atomic<const char*>::is_always_lock_free);
+std::atomic<const char*> files_to_delete[size_t(FileSlot::Count)] = {};
+std::atomic<std::atomic<bool>*> to_cancel{nullptr};
+static_assert(std::atomic<const char*>::is_always_lock_free && std::atomic<bool>::is_always_lock_free);
 
 extern "C" void end_process(int) {
   // Only functions that POSIX allows in a signal handler.
-  if (const char* path = file_to_delete.load()) unlink(path);
+  std::atomic<bool>* cancel = to_cancel.load();
+  if (cancel && !cancel->exchange(true)) return;
+  for (const auto& file : files_to_delete)
+    if (const char* path = file.load()) unlink(path);
   _exit(kInterrupted);
 }
 
@@ -25,10 +28,13 @@ extern "C" void end_process(int) {
 void exit_on_interrupt() {
   struct sigaction action = {};
   action.sa_handler = end_process;
+  action.sa_flags = SA_RESTART; // what goes on after the first signal is not to fail by it
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
 }
 
-void set_file_to_delete(const char* path) { file_to_delete.store(path); }
+void cancel_on_interrupt(std::atomic<bool>* cancel) { to_cancel.store(cancel); }
+
+void set_file_to_delete(const char* path, FileSlot slot) { files_to_delete[size_t(slot)].store(path); }
 
 } // namespace moonshade::tools
