@@ -81,6 +81,12 @@ void store_number(std::byte* target, Precision precision, double value) {
     std::memcpy(target, &value, sizeof value);
 }
 
+/// What compiled code gets: of a string its index.
+Constant stored_value(const ParameterInfo& parameter, const Constant& value) {
+  const auto* text = std::get_if<std::string>(&value);
+  return text != nullptr ? Constant(compared_index(parameter, *text)) : value;
+}
+
 /// Writes a value that check_override has passed.
 void store_constant(std::byte* target, ValueType type, Precision precision, const Constant& value) {
   const size_t size = precision == Precision::F32 ? sizeof(float) : sizeof(double);
@@ -120,7 +126,7 @@ public:
     Constants constants(compiled_->generated.constants_size);
     for (const ParameterSlot& slot : compiled_->slots)
       store_constant(constants.bytes.get() + slot.offset, slot.type, compiled_->generated.precision,
-                     values[slot.parameter]);
+                     stored_value(compiled_->info.parameters[slot.parameter], values[slot.parameter]));
     if (compiled_->init != nullptr) {
       const DefaultFloatingPoint environment;
       uint32_t fault = 0;

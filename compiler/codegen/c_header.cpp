@@ -117,8 +117,27 @@ private:
     return "INT64_C(" + std::to_string(value) + ")";
   }
 
+  /// A string literal of C.
+  static std::string literal(std::string_view text) {
+    std::string result = "\"";
+    for (const char c : text) {
+      const auto byte = static_cast<unsigned char>(c);
+      if (c == '"' || c == '\\' || c == '?') { // no trigraphs
+        result += std::string("\\") + c;
+      } else if (byte < ' ' || byte >= 0x7f) {
+        char octal[5];
+        std::snprintf(octal, sizeof octal, "\\%03o", byte);
+        result += octal;
+      } else {
+        result += c;
+      }
+    }
+    return result + "\"";
+  }
+
   std::string initialiser(const ParameterInfo& parameter) const {
     const Constant& value = parameter.default_value;
+    if (const auto* text = std::get_if<std::string>(&value)) return literal(*text);
     if (const auto* boolean = std::get_if<bool>(&value)) return *boolean ? "true" : "false";
     if (const auto* integer = std::get_if<int64_t>(&value))
       return parameter.type == ValueType::Integer ? integer_text(*integer) : number_text(static_cast<double>(*integer));
@@ -141,6 +160,11 @@ private:
     if (parameter.min && parameter.max) add(short_number(*parameter.min) + " to " + short_number(*parameter.max));
     if (parameter.min && !parameter.max) add("at least " + short_number(*parameter.min));
     if (!parameter.min && parameter.max) add("at most " + short_number(*parameter.max));
+    std::string choices;
+    for (const Constant& choice : parameter.choices)
+      if (const auto* string = std::get_if<std::string>(&choice))
+        choices += (choices.empty() ? "" : ", ") + literal(*string);
+    if (!choices.empty()) add("one of " + choices);
     return in_comment(text);
   }
 
@@ -150,9 +174,10 @@ private:
     line("typedef struct " + name("parameters") + " {");
     std::string defaults;
     for (const CParameter& parameter : interface_.parameters) {
-      const ValueType type = *parameter.info.type;
+      const ValueType type = parameter.info.type.value_or(ValueType::Integer);
       const unsigned count = component_count(type);
       std::string field = std::string(type == ValueType::Boolean ? "bool" : element(type)) + " " + parameter.field;
+      if (!parameter.info.type) field = "const char *" + parameter.field;
       if (count > 1) field += "[" + std::to_string(count) + "]";
       const std::string comment = about(parameter.info);
       line("  " + field + ";" + (comment.empty() ? "" : " /* " + comment + " */"));

@@ -110,13 +110,14 @@ void add_parameters(CInterface& interface, const ShaderInfo& info, const ir::Mod
   uint32_t offset = 0;
   for (size_t i = 0; i < info.parameters.size(); ++i) {
     CParameter parameter{info.parameters[i], field_name(info.parameters[i].name, taken), 0, UINT32_MAX};
-    if (!parameter.info.type) {
+    if (!parameter.info.type && parameter.info.compared.empty()) {
       interface.strings.push_back(std::move(parameter));
       continue;
     }
-    const uint32_t size = size_in_struct(*parameter.info.type, code.precision);
+    const ValueType type = parameter.info.type.value_or(ValueType::Integer); // a pointer is as large
+    const uint32_t size = size_in_struct(type, code.precision);
     parameter.source = align_to(offset, size);
-    offset = parameter.source + size * component_count(*parameter.info.type);
+    offset = parameter.source + size * component_count(type);
     interface.parameters_alignment = std::max(interface.parameters_alignment, size);
     for (size_t global = 0; global < module.globals.size(); ++global)
       if (module.globals[global].parameter == i) parameter.target = static_cast<uint32_t>(code.global_offsets[global]);

@@ -42,7 +42,7 @@ struct CInterface {
   std::string prefix; ///< "copper"
   std::vector<CEntry> entries;
   std::vector<CParameter> parameters; ///< those that have data
-  std::vector<CParameter> strings;    ///< those without, whose values are fixed
+  std::vector<CParameter> strings;    ///< those without: strings whose values are fixed
   uint32_t parameters_size = 0, parameters_alignment = 1;
   std::vector<CSite> sites;
 };

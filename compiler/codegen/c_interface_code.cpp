@@ -55,10 +55,12 @@ private:
     return table(llvm::ConstantDataArray::get(context_, values));
   }
 
+  llvm::Constant* null() { return llvm::ConstantPointerNull::get(pointer_); }
+
   llvm::Constant* record(llvm::ArrayRef<llvm::Constant*> fields) { return llvm::ConstantStruct::getAnon(fields); }
 
   llvm::Constant* array(llvm::ArrayRef<llvm::Constant*> elements) {
-    if (elements.empty()) return llvm::ConstantPointerNull::get(pointer_);
+    if (elements.empty()) return null();
     return table(llvm::ConstantArray::get(llvm::ArrayType::get(elements[0]->getType(), elements.size()), elements));
   }
 
@@ -103,11 +105,25 @@ private:
   llvm::Constant* row(const CParameter& parameter) {
     const ParameterInfo& info = parameter.info;
     const double infinity = std::numeric_limits<double>::infinity();
-    llvm::Constant* error = llvm::ConstantPointerNull::get(pointer_);
+    const ValueType type = info.type.value_or(ValueType::Integer);
+    llvm::Constant *error = null(), *strings = null();
     if (info.min || info.max) error = text("parameter '" + info.name + "' is outside its range");
-    return record({number(parameter.source, i32_), number(parameter.target, i32_),
-                   number(component_count(*info.type), i32_), number(kind(*info.type), i32_),
-                   real(info.min.value_or(-infinity)), real(info.max.value_or(infinity)), error});
+    if (!info.type && !info.choices.empty()) error = text("parameter '" + info.name + "' is none of its choices");
+    if (!info.type) strings = this->strings(info);
+    return record({number(parameter.source, i32_), number(parameter.target, i32_), number(component_count(type), i32_),
+                   number(info.type ? kind(type) : kCString, i32_), real(info.min.value_or(-infinity)),
+                   real(info.max.value_or(infinity)), error, strings});
+  }
+
+  /// CStrings
+  llvm::Constant* strings(const ParameterInfo& info) {
+    std::vector<llvm::Constant*> compared, choices;
+    for (const std::string& constant : info.compared)
+      compared.push_back(text(constant));
+    for (const Constant& choice : info.choices)
+      choices.push_back(text(std::get<std::string>(choice)));
+    return table(record({array(compared), number(compared.size(), i64_), array(choices), number(choices.size(), i64_),
+                         text(std::get<std::string>(info.default_value))}));
   }
 
   template <class T> static void put(std::vector<uint8_t>& bytes, size_t offset, T value) {
@@ -151,7 +167,7 @@ private:
       errors.push_back(text(site.file + ":" + std::to_string(site.line) + ":" + std::to_string(site.column) +
                             ": the top level faults: " + fault_name(site.code) +
                             (site.message.empty() ? "" : ": " + site.message)));
-    llvm::Constant* init = llvm::ConstantPointerNull::get(pointer_);
+    llvm::Constant* init = null();
     if (!code_.init_symbol.empty()) init = module_.getFunction(code_.init_symbol);
     llvm::Constant* shader = table(record({array(rows), number(rows.size(), i64_), defaults(), init, array(errors)}));
     const llvm::FunctionCallee instantiate = support("moonshade_c_instantiate", pointer_);

@@ -9,13 +9,16 @@ namespace moonshade::codegen {
 
 namespace {
 
-constexpr uint32_t kSizes[] = {1, 8, 4, 8};
+constexpr uint32_t kSizes[] = {1, 8, 4, 8, sizeof(const char*)};
+constexpr int64_t kNone = -1;
 
 template <class T> T read(const Byte* bytes) {
   T value;
   memcpy(&value, bytes, sizeof value);
   return value;
 }
+
+void write(Byte* bytes, int64_t value) { memcpy(bytes, &value, sizeof value); }
 
 double number_at(const Byte* bytes, uint32_t kind) {
   switch (kind) {
@@ -30,7 +33,21 @@ double number_at(const Byte* bytes, uint32_t kind) {
   }
 }
 
+int64_t find(const char* text, const char* const* list, uint64_t count) {
+  for (uint64_t i = 0; i < count; ++i)
+    if (strcmp(text, list[i]) == 0) return static_cast<int64_t>(i);
+  return kNone;
+}
+
+const char* string_at(const CParameterRow& row, const Byte* source) {
+  const auto* text = read<const char*>(source);
+  return text != nullptr ? text : row.strings->default_value;
+}
+
 bool fits(const CParameterRow& row, const Byte* source) {
+  if (row.kind == kCString)
+    return row.error == nullptr ||
+           find(string_at(row, source), row.strings->choices, row.strings->choice_count) != kNone;
   for (uint32_t i = 0; row.error != nullptr && i < row.count; ++i) {
     const double value = number_at(source + i * kSizes[row.kind], row.kind);
     if (!(value >= row.min && value <= row.max)) return false;
@@ -55,6 +72,9 @@ extern "C" const char* moonshade_c_instantiate(const CShader* shader, void* cons
     if (row.target == kCNoTarget) continue;
     if (row.kind == kCBoolean)
       target[row.target] = source[row.source] != 0;
+    else if (row.kind == kCString)
+      write(target + row.target,
+            find(string_at(row, source + row.source), row.strings->compared, row.strings->compared_count));
     else
       memcpy(target + row.target, source + row.source, size_t{row.count} * kSizes[row.kind]);
   }

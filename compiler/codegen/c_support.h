@@ -10,7 +10,17 @@
 namespace moonshade::codegen {
 
 /// How a parameter's components go from the C struct to the instance's constants.
-enum CKind : uint32_t { kCBoolean, kCInteger, kCFloat, kCDouble };
+enum CKind : uint32_t { kCBoolean, kCInteger, kCFloat, kCDouble, kCString };
+
+/// Of a string parameter: the constants that the shader compares it with, by whose index the code knows its value, and
+/// its choices (none: any text).
+struct CStrings {
+  const char* const* compared;
+  uint64_t compared_count;
+  const char* const* choices;
+  uint64_t choice_count;
+  const char* default_value; ///< where the C struct has NULL
+};
 
 struct CParameterRow {
   uint32_t source; ///< offset in the struct of parameters
@@ -18,7 +28,8 @@ struct CParameterRow {
   uint32_t count;  ///< components
   uint32_t kind;
   double min, max;
-  const char* error; ///< where a component is outside min..max; null: any value is right
+  const char* error;       ///< where a component is outside min..max, or a string no choice; null: any value is right
+  const CStrings* strings; ///< of a string parameter
 };
 inline constexpr uint32_t kCNoTarget = UINT32_MAX;
 

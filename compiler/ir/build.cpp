@@ -38,9 +38,11 @@ void declare_globals(ModuleBuild& shared) {
   }
   for (uint32_t i = 0; i < program.info.parameters.size(); ++i) {
     const ParameterInfo& parameter = program.info.parameters[i];
-    if (!parameter.type || shared.parameters[i] != kNone) continue;
+    if ((!parameter.type && parameter.compared.empty()) || shared.parameters[i] != kNone) continue;
     shared.parameters[i] = static_cast<GlobalId>(shared.module.globals.size());
-    shared.module.globals.push_back({.name = parameter.name, .type = *parameter.type, .parameter = i});
+    // A string is known by its index among those that it is compared with.
+    const ValueType type = parameter.type.value_or(ValueType::Integer);
+    shared.module.globals.push_back({.name = parameter.name, .type = type, .parameter = i});
   }
 }
 

@@ -285,6 +285,10 @@ ValueId FunctionBuild::library_value(const LibraryFunction& row, ValueType type,
 }
 
 ValueId FunctionBuild::comparison(const BinaryExpr& expr, const ExpressionFact& known) {
+  if (known.form == OperatorForm::Parameter) {
+    const ValueId value = b_.load_global(shared_.parameters[known.index], ValueType::Integer);
+    return b_.compare(expr.op == BinaryOp::Eq ? Op::Eq : Op::Ne, value, b_.integer(known.integer_constant));
+  }
   if (known.form == OperatorForm::Mixed) {
     const ValueId left = evaluate(*expr.left);
     return mixed_comparison(expr.op, left, evaluate(*expr.right));
@@ -399,7 +403,7 @@ FunctionBuild::Values FunctionBuild::call(const Expr& expr) {
   const ExpressionFact& known = fact(expr);
   if (known.call == CallKind::Parameter) {
     const GlobalId global = shared_.parameters[known.index];
-    if (global == kNone) return {kNone};
+    if (global == kNone || !is_value(known.type)) return {kNone};
     return {b_.load_global(global, shared_.module.globals[global].type)};
   }
   if (known.call == CallKind::Error) {

@@ -170,7 +170,8 @@ void refuse_conflict(Context& context, const Work& work, const Variable& variabl
   if (is_function(first) || is_function(type)) {
     context.error(DiagnosticCode::FunctionNotKnown, place, {std::string(name)});
   } else if (first.kind == Type::Kind::String && type.kind == Type::Kind::String) {
-    context.error(DiagnosticCode::NotAvailableYet, place, {"variables that hold several strings are"});
+    context.error(DiagnosticCode::SeveralStrings, place, {std::string(name)})
+        .note(DiagnosticCode::NoteFirstGiven, variable.first, {describe(first)});
   } else {
     context.type_error(work, DiagnosticCode::TypeConflict, place, {std::string(name), describe(first), describe(type)})
         .note(DiagnosticCode::NoteFirstGiven, variable.first, {describe(first)});

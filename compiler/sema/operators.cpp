@@ -87,7 +87,7 @@ Type Walker::length_operator(const UnaryExpr& expr, const Type& operand) {
     return record(expr, std::move(fact));
   }
   if (operand.kind == Type::Kind::String) {
-    error(Code::NotAvailableYet, expr.operand->span, {"the length of a string parameter is"});
+    error(Code::StringParameter, expr.operand->span);
   } else if (!is_unknown(operand)) {
     type_error(Code::OperandType, expr.operand->span, {"#", describe(operand)});
   }
@@ -187,15 +187,36 @@ Type Walker::bitwise(const BinaryExpr& expr, const Type& left, const Type& right
   return record(expr, std::move(fact));
 }
 
+/// Of a string parameter and a constant: the parameter remembers the constant, and its value is known by an index.
+Type Walker::parameter_equality(const BinaryExpr& expr, const Type& left, const Type& right) {
+  if (left.is_parameter && right.is_parameter) {
+    error(Code::StringParameter, expr.span);
+    return boolean_type();
+  }
+  if (!context_.report) return boolean_type();
+  const std::string_view name = left.is_parameter ? left.text : right.text;
+  const std::string constant(left.is_parameter ? right.text : left.text);
+  std::vector<ParameterInfo>& parameters = context_.program.info.parameters;
+  const auto parameter = std::ranges::find(parameters, name, &ParameterInfo::name);
+  if (parameter == parameters.end()) return boolean_type(); // an error was reported
+  ExpressionFact fact;
+  fact.type = boolean_type();
+  fact.form = OperatorForm::Parameter;
+  fact.index = static_cast<uint32_t>(parameter - parameters.begin());
+  fact.integer_constant = compared_index(*parameter, constant);
+  if (fact.integer_constant == kNoneCompared) {
+    fact.integer_constant = static_cast<int64_t>(parameter->compared.size());
+    parameter->compared.push_back(constant);
+  }
+  return record(expr, std::move(fact));
+}
+
 Type Walker::equality(const BinaryExpr& expr, const Type& left, const Type& right) {
   if (is_unknown(left) || is_unknown(right)) return boolean_type();
   ExpressionFact fact;
   fact.type = boolean_type();
   if (left.kind == Type::Kind::String && right.kind == Type::Kind::String) {
-    if (left.is_parameter || right.is_parameter) {
-      error(Code::NotAvailableYet, expr.span, {"comparisons of string parameters are"});
-      return boolean_type();
-    }
+    if (left.is_parameter || right.is_parameter) return parameter_equality(expr, left, right);
     fact.form = OperatorForm::Constant;
     fact.integer_constant = (left.text == right.text) == (expr.op == BinaryOp::Eq);
     return record(expr, std::move(fact));

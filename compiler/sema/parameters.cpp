@@ -157,7 +157,8 @@ TypeList Walker::parameter(const CallExpr& expr) {
   info.span = expr.span;
   info.type = type_of(*value);
   info.default_value = *value;
-  Type type = info.type ? Type::of(*info.type) : string_type({});
+  const auto* literal = try_as<StringExpr>(&strip_parentheses(*expr.args[0]));
+  Type type = info.type ? Type::of(*info.type) : string_type(literal != nullptr ? literal->value : std::string_view{});
   type.is_parameter = !info.type;
   if (!context_.report || name == nullptr) return {{type}, false};
 

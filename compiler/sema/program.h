@@ -30,7 +30,7 @@ struct Type {
     Unknown,  ///< not inferred yet, or an error that was reported: agrees with everything
     None,     ///< no value: the result of a function that returns nothing
     Value,    ///< `value`
-    String,   ///< a compile-time constant, `text`
+    String,   ///< a compile-time constant, `text`; of a parameter (`is_parameter`) the parameter's name
     Function, ///< a function of the shader, `function`
     Library,  ///< a function or table of the library, `text` its name ("noise", "math.sin", "math"); no storage
   };
@@ -85,8 +85,10 @@ enum class OperatorForm : uint8_t {
   Conditional, ///< an `or` whose left side is `c and a`: c decides between a and b, results converted to the type.
                ///< In a chain `c and a or d and b or e` the inner `or` (the left side) is marked Conditional too, with
                ///< the type of the whole; so is every `and` that is an arm. The left side may stand in parentheses
-  Constant,    ///< known while compiling, `integer_constant` (boolean: 0 or 1); operands are not evaluated:
-               ///< `#"text"`, comparisons of constant strings
+  Parameter, ///< the string parameter `index` compared with the constant number `integer_constant` of those that it is
+             ///< compared with (ParameterInfo::compared); operands are not evaluated
+  Constant,  ///< known while compiling, `integer_constant` (boolean: 0 or 1); operands are not evaluated:
+             ///< `#"text"`, comparisons of constant strings
 };
 
 /// Facts about an expression node.
@@ -94,7 +96,7 @@ struct ExpressionFact {
   Type type;                 ///< of its (first) value
   std::vector<Type> results; ///< of a call: all results
   NameKind name = NameKind::Local;
-  uint32_t index = 0;           ///< Global slot; parameter
+  uint32_t index = 0;           ///< Global slot; parameter (also of OperatorForm::Parameter)
   double constant = 0;          ///< NameKind::Constant of type number
   int64_t integer_constant = 0; ///< NameKind::Constant of type integer
   CallKind call = CallKind::Specialisation;

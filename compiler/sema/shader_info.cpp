@@ -169,6 +169,11 @@ CheckedConstant check_override(const ParameterInfo& parameter, const Constant& v
   return {*converted, ""};
 }
 
+int64_t compared_index(const ParameterInfo& parameter, std::string_view value) {
+  const auto found = std::ranges::find(parameter.compared, value);
+  return found == parameter.compared.end() ? kNoneCompared : found - parameter.compared.begin();
+}
+
 CheckedConstant parse_override(const ParameterInfo& parameter, std::string_view text) {
   if (const auto value = read_value(parameter, text)) return check_override(parameter, *value);
   return {std::string(text),

@@ -35,7 +35,13 @@ struct ParameterInfo {
   std::optional<double> min, max, step;
   std::string doc, label;
   std::vector<Constant> choices;
+  /// Of a string parameter: the constants that the shader compares it with. Compiled code knows its value as an index
+  /// here, or kNoneCompared.
+  std::vector<std::string> compared;
 };
+inline constexpr int64_t kNoneCompared = -1;
+/// The index of a string parameter's value in `compared`.
+int64_t compared_index(const ParameterInfo& parameter, std::string_view value);
 
 struct ShaderInfo {
   std::vector<EntryInfo> entries;

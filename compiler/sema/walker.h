@@ -42,6 +42,7 @@ private:
   Type binary(const syntax::BinaryExpr& expr);
   Type arithmetic(const syntax::BinaryExpr& expr, const Type& left, const Type& right);
   Type bitwise(const syntax::BinaryExpr& expr, const Type& left, const Type& right);
+  Type parameter_equality(const syntax::BinaryExpr& expr, const Type& left, const Type& right);
   Type equality(const syntax::BinaryExpr& expr, const Type& left, const Type& right);
   Type ordering(const syntax::BinaryExpr& expr, const Type& left, const Type& right);
   bool takes_arithmetic(const syntax::Expr& operand, const Type& type, std::string_view op);

@@ -59,6 +59,10 @@ int main(int argc, char** argv) {
   const char* error = pits_instantiate(&instance, &parameters);
   if (error == NULL || strcmp(error, "parameter 'scale' is outside its range") != 0) return 10;
   parameters.scale = 8;
+  parameters.mode = "shallow";
+  error = pits_instantiate(&instance, &parameters);
+  if (error == NULL || strcmp(error, "parameter 'mode' is none of its choices") != 0) return 16;
+  parameters.mode = "odd \"?\"";
   parameters.sharp = false;
   parameters.class_[0] = 1;
   error = pits_instantiate(&instance, argc > 1 && strcmp(argv[1], "set") == 0 ? &parameters : NULL);

@@ -5,6 +5,8 @@ local sharp = param("sharp", true)
 local tint = param("class", rgb(0.25, 0.5, 1))
 local unused = param("unused", 2.5)
 
+local mode = param("mode", "plain", { choices = { "plain", "odd \"?\"", "deep" } })
+
 local phase = math.sin(scale) * 2
 
 function height(p)
@@ -14,6 +16,7 @@ function height(p)
     sum = sum + noise(p * scale) / (i + 1)
     i = i + 1
   end
+  if mode == "deep" then sum = sum * 2 elseif mode == 'odd "?"' then sum = -sum end
   return sharp and math.floor(sum * 4) / 4 + phase or sum
 end
 
