@@ -16,6 +16,8 @@ static std::string unknown_material(const Scene& scene, const Overrides& overrid
   std::vector<std::string_view> names(scene.materials.size());
   std::transform(scene.materials.begin(), scene.materials.end(), names.begin(),
                  [](const Material& m) { return m.name.c_str(); });
+  for (const Light& light : scene.lights)
+    if (!light.shader.empty()) names.emplace_back(light.name);
   for (const auto& [name, parameters] : overrides) {
     if (std::find(names.begin(), names.end(), name) != names.end()) continue;
     std::string message = "-D: the scene has no material '" + name + "'";
@@ -34,6 +36,20 @@ static std::string too_far_out(const Scene& scene) {
   return "";
 }
 
+static std::string load_environments(const Scene& scene, ShaderSource& shaders, const Overrides& overrides,
+                                     std::vector<Environment>& environments, std::string& warnings) {
+  for (const Light& light : scene.lights) {
+    if (light.kind != LightKind::Environment) continue;
+    auto found = overrides.find(light.name);
+    static const std::map<std::string, std::string> none;
+    environments.emplace_back();
+    std::string error = Environment::load(light, scene, shaders, found == overrides.end() ? none : found->second,
+                                          environments.back(), warnings);
+    if (!error.empty()) return error;
+  }
+  return "";
+}
+
 Preparation prepare(Scene scene, ShaderSource& shaders, const Overrides& overrides) {
   Preparation result;
   result.error = unknown_material(scene, overrides);
@@ -43,14 +59,20 @@ Preparation prepare(Scene scene, ShaderSource& shaders, const Overrides& overrid
   prepared->scene = std::move(scene);
   auto start = std::chrono::steady_clock::now();
   result.error = MaterialSet::build(prepared->scene, shaders, overrides, prepared->materials, result.warnings);
+  std::vector<Environment> environments;
+  if (result.error.empty())
+    result.error = load_environments(prepared->scene, shaders, overrides, environments, result.warnings);
   prepared->compile_seconds = seconds_since(start);
   if (!result.error.empty()) return result;
+  if (prepared->materials.any_emits())
+    std::erase_if(prepared->scene.lights, [](const Light& light) { return light.by_default; });
   start = std::chrono::steady_clock::now();
   prepared->geometry = Geometry::build(prepared->scene, result.error, prepared->materials.passable());
   prepared->geometry_seconds = seconds_since(start);
   if (!prepared->geometry) return result.machine_at_fault = true, std::move(result);
-  prepared->lights =
-      std::make_unique<LightSet>(prepared->scene, *prepared->geometry, prepared->materials.constant_emission());
+  prepared->lights = std::make_unique<LightSet>(
+      prepared->scene, *prepared->geometry, measure_emission(prepared->scene, *prepared->geometry, prepared->materials),
+      std::move(environments));
   result.prepared = std::move(prepared);
   return result;
 }

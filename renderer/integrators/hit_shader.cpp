@@ -2,9 +2,9 @@
 
 namespace moonshade::renderer {
 
-HitShader::HitShader(const PreparedScene& scene, size_t capacity)
-    : scene_(scene), batch_(capacity, scene.scene.settings.time, scene.scene.settings.frame), met_(capacity),
-      material_(capacity), run_start_(scene.materials.size() + 1), points_(capacity), targets_(capacity) {
+HitShader::HitShader(const Scene& scene, const Geometry& geometry, const MaterialSet& materials, size_t capacity)
+    : geometry_(geometry), materials_(materials), batch_(capacity, scene.settings.time, scene.settings.frame),
+      met_(capacity), material_(capacity), run_start_(materials.size() + 1), points_(capacity), targets_(capacity) {
   added_.reserve(capacity);
 }
 
@@ -12,7 +12,7 @@ HitShader::HitShader(const PreparedScene& scene, size_t capacity)
 void HitShader::sort() {
   std::fill(run_start_.begin(), run_start_.end(), 0);
   for (size_t k = 0; k < added_.size(); ++k) {
-    material_[k] = scene_.geometry->objects()[added_[k].hit.object].material_of(added_[k].hit.primitive);
+    material_[k] = geometry_.objects()[added_[k].hit.object].material_of(added_[k].hit.primitive);
     ++run_start_[material_[k] + 1];
   }
   for (size_t m = 1; m < run_start_.size(); ++m)
@@ -28,18 +28,18 @@ void HitShader::shade_run(const CompiledMaterial& material, size_t begin, size_t
                           WorkerStats& stats) {
   for (size_t k = begin; k < end; ++k) {
     Met& met = met_[k];
-    points_[k] = scene_.geometry->surface(*met.ray, met.hit);
-    const PlacedObject& placed = scene_.geometry->objects()[met.hit.object];
+    points_[k] = geometry_.surface(*met.ray, met.hit);
+    const PlacedObject& placed = geometry_.objects()[met.hit.object];
     met.width += met.spread * points_[k].distance;
     targets_[k] = {&placed, &points_[k], met.width / placed.scale};
     fill_inputs(material.needs, k);
   }
   stats.shading_points += end - begin;
   double start = thread_seconds();
-  scene_.materials.bend(material, batch_, begin, end - begin, targets_.data() + begin, faults);
+  materials_.bend(material, batch_, begin, end - begin, targets_.data() + begin, faults);
   for (size_t k = begin; k < end; ++k)
     fill_normal(k);
-  scene_.materials.shade(material, batch_, begin, end - begin, faults);
+  materials_.shade(material, batch_, begin, end - begin, faults);
   stats.shader_seconds += thread_seconds() - start;
 }
 

@@ -4,7 +4,7 @@
 
 #include "renderer/integrators/task.h"
 #include "renderer/materials/bsdf.h"
-#include "renderer/prepared_scene.h"
+#include "renderer/materials/material_set.h"
 
 #include <ctime>
 #include <vector>
@@ -20,8 +20,8 @@ inline double thread_seconds() {
 
 class HitShader {
 public:
-  /// `scene` outlives this; `capacity` is the most hits at a time.
-  HitShader(const PreparedScene& scene, size_t capacity);
+  /// All outlive this; `capacity` is the most hits at a time.
+  HitShader(const Scene& scene, const Geometry& geometry, const MaterialSet& materials, size_t capacity);
 
   void clear() { added_.clear(); }
   /// The ray stays where it is until its hit has been shown. The footprint is `width` wide at its origin and grows by
@@ -33,11 +33,11 @@ public:
   /// Shades everything added; calls visit(material, begin, end) for each material's points [begin, end).
   template <typename Visit> void shade(FaultLog& faults, WorkerStats& stats, Visit visit) {
     sort();
-    for (uint32_t material = 0; material < scene_.materials.size(); ++material) {
+    for (uint32_t material = 0; material < materials_.size(); ++material) {
       size_t begin = run_start_[material], end = run_start_[material + 1];
       if (begin == end) continue;
-      shade_run(scene_.materials[material], begin, end, faults, stats);
-      visit(scene_.materials[material], begin, end);
+      shade_run(materials_[material], begin, end, faults, stats);
+      visit(materials_[material], begin, end);
     }
   }
 
@@ -70,7 +70,8 @@ private:
   void fill_inputs(uint32_t needs, size_t k);
   void fill_normal(size_t k);
 
-  const PreparedScene& scene_;
+  const Geometry& geometry_;
+  const MaterialSet& materials_;
   ShadingBatch batch_;
   std::vector<Met> added_, met_; ///< as added; sorted by material, within which they keep their order
   std::vector<uint32_t> material_, run_start_;

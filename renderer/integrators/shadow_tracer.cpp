@@ -5,10 +5,10 @@ namespace moonshade::renderer {
 static constexpr int kMostSurfaces = 256; // in a row that let light through
 
 ShadowTracer::ShadowTracer(const PreparedScene& scene, size_t capacity)
-    : scene_(scene), capacity_(capacity), rays_(capacity), blocked_(capacity) {
+    : scene_(scene), capacity_(capacity), rays_(capacity), blocked_(capacity), miss_shader_(scene, capacity) {
   shadows_.reserve(capacity);
-  if (!scene.materials.any_passable()) return;
-  shader_ = std::make_unique<HitShader>(scene, capacity);
+  if (!scene.materials.any_passable() && !scene.lights->asks_surfaces()) return;
+  shader_ = std::make_unique<HitShader>(scene.scene, *scene.geometry, scene.materials, capacity);
   hits_.resize(capacity);
 }
 
@@ -21,7 +21,8 @@ void ShadowTracer::arrive(FaultLog& faults, WorkerStats& stats) {
   for (size_t k = 0; k < shadows_.size(); ++k)
     if (blocked_[k]) shadows_[k].contribution = Vec3(0);
   stats.trace_seconds += thread_seconds() - start;
-  if (shader_) pass_through(faults, stats);
+  if (scene_.materials.any_passable()) pass_through(faults, stats);
+  if (asks_) ask_emitters(faults, stats);
 }
 
 /// Nothing opaque is in the way of those that are left.
@@ -55,6 +56,7 @@ void ShadowTracer::pass_through(FaultLog& faults, WorkerStats& stats) {
         const SurfacePoint& s = shader_->point(k);
         shadow.ray.origin = s.world - s.geometric_normal * s.offset;
         shadow.ray.far -= s.distance;
+        shadow.light.distance -= s.distance;
         shadow.width = shader_->width(k);
         if (!(shadow.ray.far > 0)) shadow.ray.far = 0;
       }
@@ -63,6 +65,29 @@ void ShadowTracer::pass_through(FaultLog& faults, WorkerStats& stats) {
       return is_black(shadows_[index].contribution) || shadows_[index].ray.far <= 0;
     });
   }
+}
+
+void ShadowTracer::ask_emitters(FaultLog& faults, WorkerStats& stats) {
+  if (shader_) shader_->clear();
+  for (uint32_t k = 0; k < shadows_.size(); ++k) {
+    const Shadow& shadow = shadows_[k];
+    if (shadow.emitter == Emitter::Known || is_black(shadow.contribution)) continue;
+    if (shadow.emitter == Emitter::Surface)
+      shader_->add(k, shadow.ray, shadow.light, shadow.width, shadow.spread);
+    else
+      miss_shader_.add(k, shadow.ray.direction, shadow.spread);
+  }
+  miss_shader_.shade(faults, stats, [&](uint32_t k, const Vec3& radiance, bool faulted) {
+    shadows_[k].contribution *= faulted ? Vec3(0) : radiance;
+  });
+  if (!shader_) return;
+  shader_->shade(faults, stats, [&](const CompiledMaterial& material, size_t begin, size_t end) {
+    for (size_t k = begin; k < end; ++k) {
+      bool dark = shader_->faulted(k) || (material.emits_outward_only && shader_->backface(k));
+      SurfaceValues values = shader_->values(k);
+      shadows_[shader_->owner(k)].contribution *= dark ? Vec3(0) : values.emission * values.opacity;
+    }
+  });
 }
 
 } // namespace moonshade::renderer

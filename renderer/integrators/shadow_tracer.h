@@ -1,8 +1,10 @@
 // Rays towards lights, a batch at a time. What is opaque blocks them; a second look goes through what is not (surfaces
-// whose opacity a shader gives, thin glass), sorted by material like any other hits.
+// whose opacity a shader gives, thin glass), sorted by material like any other hits. Then lights that shaders describe
+// are asked what they send.
 #pragma once
 
 #include "renderer/integrators/hit_shader.h"
+#include "renderer/integrators/miss_shader.h"
 
 namespace moonshade::renderer {
 
@@ -11,6 +13,8 @@ struct Shadow {
   uint32_t owner = 0;
   Vec3 contribution{0}; ///< where nothing is in between
   float width = 0, spread = 0;
+  Emitter emitter = Emitter::Known;
+  Hit light{}; ///< Emitter::Surface: where the ray ends
 };
 
 class ShadowTracer {
@@ -19,26 +23,33 @@ public:
 
   bool full() const { return shadows_.size() == capacity_; }
   bool empty() const { return shadows_.empty(); }
-  void add(const Shadow& shadow) { shadows_.push_back(shadow); }
+  void add(const Shadow& shadow) {
+    shadows_.push_back(shadow);
+    asks_ |= shadow.emitter != Emitter::Known;
+  }
   /// Afterwards contributions are what arrives; they are shown in the order in which they were added.
   template <typename Deliver> void trace(FaultLog& faults, WorkerStats& stats, Deliver deliver) {
     arrive(faults, stats);
     for (const Shadow& shadow : shadows_)
       if (!is_black(shadow.contribution)) deliver(shadow.owner, shadow.contribution);
     shadows_.clear();
+    asks_ = false;
   }
 
 private:
   void arrive(FaultLog& faults, WorkerStats& stats);
   void pass_through(FaultLog& faults, WorkerStats& stats);
+  void ask_emitters(FaultLog& faults, WorkerStats& stats);
 
   const PreparedScene& scene_;
   size_t capacity_;
   std::vector<Shadow> shadows_;
   std::vector<Ray> rays_;
   std::vector<uint8_t> blocked_;
-  // Only where something lets light through.
+  bool asks_ = false; ///< some shadow's emitter is a shader
+  // Only where something lets light through, or a light's emission comes from a shader.
   std::unique_ptr<HitShader> shader_;
+  MissShader miss_shader_;
   std::vector<Hit> hits_;
   std::vector<uint32_t> active_;
 };

@@ -13,7 +13,8 @@ static constexpr uint32_t kMostSegments = 4096; // of a path, sheets without end
 
 Wavefront::Wavefront(const PreparedScene& scene, size_t capacity)
     : scene_(scene), settings_(scene.scene.settings), camera_(scene.scene.camera, settings_.width, settings_.height),
-      shader_(scene, capacity), shadows_(scene, capacity), paths_(capacity), rays_(capacity), hits_(capacity) {
+      shader_(scene.scene, *scene.geometry, scene.materials, capacity), miss_shader_(scene, capacity),
+      shadows_(scene, capacity), paths_(capacity), rays_(capacity), hits_(capacity) {
   active_.reserve(capacity);
 }
 
@@ -26,6 +27,9 @@ void Wavefront::run(const Task& task, const SampleOutputs& out) {
   while (!active_.empty()) {
     trace();
     stats_.trace_seconds += lap();
+    miss_shader_.shade(faults_, stats_, [&](uint32_t owner, const Vec3& radiance, bool faulted) {
+      leave(paths_[owner], radiance, faulted);
+    });
     shader_.shade(faults_, stats_, [&](const CompiledMaterial& material, size_t begin, size_t end) {
       if (first_) note_first_hits(begin, end);
       scatter(material, begin, end);
@@ -66,14 +70,18 @@ void Wavefront::trace() {
     if (hits_[k].found())
       shader_.add(active_[k], path.ray, hits_[k], path.width, path.spread);
     else
-      leave(path);
+      miss_shader_.add(active_[k], path.ray.direction, path.spread);
   }
 }
 
 /// What a ray sees that meets nothing.
-void Wavefront::leave(Path& path) {
+void Wavefront::leave(Path& path, const Vec3& radiance, bool faulted) {
   path.alive = false;
-  Vec3 radiance = scene_.lights->environment(path.ray.direction);
+  if (faulted) {
+    path.faulted = true;
+    if (path.bounces == 0) path.radiance = kFaultColor;
+    return;
+  }
   if (is_black(radiance)) return;
   float weight = path.mirror ? 1.0f : power_heuristic(path.pdf, scene_.lights->environment_pdf(path.ray.direction));
   path.radiance += path.throughput * radiance * weight;
@@ -149,7 +157,9 @@ void Wavefront::add_shadow(uint32_t path, size_t k, const LightSample& light, co
                 path,
                 contribution,
                 shader_.width(k),
-                paths_[path].spread});
+                paths_[path].spread,
+                light.emitter,
+                {light.object, light.primitive, light.distance}});
 }
 
 void Wavefront::trace_shadows() {

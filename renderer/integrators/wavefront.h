@@ -50,7 +50,7 @@ private:
 
   void generate(const Task& task);
   void trace();
-  void leave(Path& path);
+  void leave(Path& path, const Vec3& radiance, bool faulted);
   void scatter(const CompiledMaterial& material, size_t begin, size_t end);
   bool end_if_faulted(Path& path, size_t k);
   bool passes(Path& path, size_t k, const SurfaceValues& values);
@@ -85,6 +85,7 @@ private:
   const Settings& settings_;
   CameraRays camera_;
   HitShader shader_;
+  MissShader miss_shader_;
   ShadowTracer shadows_;
   WorkerStats stats_;
   FaultLog faults_;

@@ -1,5 +1,5 @@
 // Densities: uniform over area for meshes (weighted by luminance), over the visible cone for spheres and the sun, by
-// bands of equal solid angle for the sky.
+// bands of equal solid angle for the sky, by a table for surroundings.
 #include "renderer/lights/light_set.h"
 
 #include "renderer/sampling/warp.h"
@@ -45,29 +45,46 @@ static bool accumulate(std::vector<float>& weights) {
   return true;
 }
 
-LightSet::LightSet(const Scene& scene, const Geometry& geometry, std::span<const std::optional<Vec3>> emission)
-    : geometry_(geometry), scene_(scene), light_of_object_(scene.objects.size(), -1) {
+LightSet::LightSet(const Scene& scene, const Geometry& geometry, std::vector<ObjectEmission> emission,
+                   std::vector<Environment> environments)
+    : geometry_(geometry), scene_(scene), environments_(std::move(environments)),
+      light_of_object_(scene.objects.size(), -1) {
   for (const Light& light : scene.lights) {
-    if (light.kind == LightKind::Sky) {
+    if (light.kind == LightKind::Sky)
       add_sky(light);
-    } else if (!is_black(light.color)) {
-      Entry entry;
-      entry.kind = light.kind == LightKind::Sun ? Kind::Sun : Kind::Point;
-      entry.light = light;
-      float sine = std::sin(0.25f * light.angle * kPi / 180);
-      entry.one_minus_cos = 2 * sine * sine;
-      if (entry.kind == Kind::Sun) environment_.push_back(uint32_t(lights_.size()));
+    else if (light.kind != LightKind::Environment && !is_black(light.color))
+      add_point_or_sun(light);
+  }
+  for (uint32_t k = 0; k < environments_.size(); ++k) {
+    asks_shaders_ |= environments_[k].by_shader();
+    Entry entry;
+    entry.kind = Kind::Around;
+    entry.around = k;
+    if (!environments_[k].is_black()) {
+      environment_.push_back(uint32_t(lights_.size()));
       lights_.push_back(std::move(entry));
     }
   }
   for (uint32_t id = 0; id < scene.objects.size(); ++id) {
+    if (emission[id].mean.empty()) continue;
     const PlacedObject& placed = geometry.objects()[id];
-    if (placed.object->shape == Shape::Mesh) {
-      add_mesh(placed, id, emission);
-    } else if (auto constant = emission[placed.object->materials[0]]; constant && !is_black(*constant)) {
-      add_sphere(placed, id, *constant);
-    }
+    if (placed.object->shape == Shape::Mesh)
+      add_mesh(placed, id, emission[id]);
+    else
+      add_sphere(placed, id, emission[id]);
   }
+}
+
+void LightSet::add_point_or_sun(const Light& light) {
+  Entry entry;
+  entry.kind = light.kind == LightKind::Sun ? Kind::Sun : light.kind == LightKind::Spot ? Kind::Spot : Kind::Point;
+  entry.light = light;
+  float half = 0.5f * light.angle * kPi / 180, sine = std::sin(0.5f * half);
+  entry.one_minus_cos = 2 * sine * sine;
+  entry.cos_outer = std::cos(half);
+  entry.cos_inner = std::cos(half * (1 - light.blend));
+  if (entry.kind == Kind::Sun) environment_.push_back(uint32_t(lights_.size()));
+  lights_.push_back(std::move(entry));
 }
 
 void LightSet::add_sky(const Light& light) {
@@ -96,30 +113,26 @@ void LightSet::add_sky(const Light& light) {
   lights_.push_back(std::move(entry));
 }
 
-void LightSet::add_mesh(const PlacedObject& placed, uint32_t id, std::span<const std::optional<Vec3>> emission) {
+void LightSet::add_mesh(const PlacedObject& placed, uint32_t id, const ObjectEmission& emission) {
   const Mesh& mesh = *placed.object->mesh;
-  bool emits = false;
-  for (uint32_t m : placed.object->materials)
-    emits |= emission[m] && !is_black(*emission[m]);
-  if (!emits) return;
   Entry entry;
   entry.kind = Kind::Mesh;
   entry.object = id;
+  entry.by_shader = emission.by_shader;
   entry.triangle_pdf.assign(mesh.triangles.size(), 0.0f);
   std::vector<float> brightness;
   double sum = 0;
   for (uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-    uint32_t material = placed.material_of(t);
-    const std::optional<Vec3>& e = emission[material];
-    if (!e || !(luminance(*e) > 0)) continue;
-    entry.one_sided = scene_.materials[material].emits_outward_only;
+    const Vec3& e = emission.mean[t];
+    if (!(luminance(e) > 0)) continue;
+    entry.one_sided = scene_.materials[placed.material_of(t)].emits_outward_only;
     const Mesh::Corners& c = mesh.triangles[t];
     float area = 0.5f * glm::length(glm::cross(placed.vertices[c[1]] - placed.vertices[c[0]],
                                                placed.vertices[c[2]] - placed.vertices[c[0]]));
     entry.triangles.push_back(t);
-    entry.triangle_emission.push_back(*e);
-    entry.cumulative.push_back(area * luminance(*e));
-    brightness.push_back(luminance(*e));
+    entry.triangle_emission.push_back(e);
+    entry.cumulative.push_back(area * luminance(e));
+    brightness.push_back(luminance(e));
     sum += entry.cumulative.back();
   }
   if (entry.triangles.empty() || !accumulate(entry.cumulative)) return;
@@ -129,19 +142,22 @@ void LightSet::add_mesh(const PlacedObject& placed, uint32_t id, std::span<const
   lights_.push_back(std::move(entry));
 }
 
-void LightSet::add_sphere(const PlacedObject& placed, uint32_t id, const Vec3& emission) {
+void LightSet::add_sphere(const PlacedObject& placed, uint32_t id, const ObjectEmission& emission) {
   // A cone holds a sphere only where the object's matrix keeps it round.
   Mat3 gram = glm::transpose(placed.linear) * placed.linear;
   float s = placed.scale * placed.scale;
+  bool round = true;
   for (int c = 0; c < 3; ++c)
     for (int r = 0; r < 3; ++r)
-      if (std::abs(gram[c][r] - (c == r ? s : 0)) > 1e-4f * s) return;
+      round &= std::abs(gram[c][r] - (c == r ? s : 0)) <= 1e-4f * s;
+  if (placed.passable && placed.passable[placed.material_of(0)]) round = false; // its inner side shines through, too
   Entry entry;
-  entry.kind = Kind::Sphere;
+  entry.kind = round ? Kind::Sphere : Kind::Ellipsoid;
   entry.object = id;
   entry.center = Vec3(placed.object->to_world[3]);
   entry.radius = placed.object->radius * placed.scale;
-  entry.emission = emission;
+  entry.emission = emission.mean[0];
+  entry.by_shader = emission.by_shader;
   light_of_object_[id] = int32_t(lights_.size());
   lights_.push_back(std::move(entry));
 }
@@ -152,6 +168,8 @@ Vec3 LightSet::environment(const Vec3& direction) const {
     const Entry& e = lights_[id];
     if (e.kind == Kind::Sky) {
       sum += sky_radiance(e.light, direction.y);
+    } else if (e.kind == Kind::Around) {
+      sum += environments_[e.around].radiance(direction);
     } else if (e.one_minus_cos > 0) {
       Vec3 apart = direction - e.light.direction; // |apart|^2 = 2 (1 - cos): exact for small angles
       if (glm::dot(apart, apart) <= 2 * e.one_minus_cos) sum += e.light.color / (2 * kPi * e.one_minus_cos);
@@ -166,6 +184,8 @@ float LightSet::environment_pdf(const Vec3& direction) const {
     const Entry& e = lights_[id];
     if (e.kind == Kind::Sky) {
       sum += sky_pdf(e, direction.y);
+    } else if (e.kind == Kind::Around) {
+      sum += environments_[e.around].pdf(direction);
     } else if (e.one_minus_cos > 0) {
       Vec3 apart = direction - e.light.direction;
       if (glm::dot(apart, apart) <= 2 * e.one_minus_cos) sum += 1 / (2 * kPi * e.one_minus_cos);
@@ -175,7 +195,18 @@ float LightSet::environment_pdf(const Vec3& direction) const {
 }
 
 LightSample LightSet::sample_environment(const Vec3& direction) const {
-  return {direction, kInfinity, environment(direction), environment_pdf(direction), false};
+  LightSample sample{direction, kInfinity, Vec3(1), environment_pdf(direction), false};
+  if (asks_shaders_)
+    sample.emitter = Emitter::Surroundings;
+  else
+    sample.radiance = environment(direction);
+  return sample;
+}
+
+static void ask_surface(LightSample& sample, uint32_t object, uint32_t primitive) {
+  sample.radiance = Vec3(1);
+  sample.emitter = Emitter::Surface;
+  sample.object = object, sample.primitive = primitive;
 }
 
 LightSample LightSet::sample_mesh(const Entry& entry, const Vec3& point, const Vec2& u) const {
@@ -198,6 +229,7 @@ LightSample LightSet::sample_mesh(const Entry& entry, const Vec3& point, const V
   if (cosine == 0 || (entry.one_sided && cosine < 0)) return sample;
   sample.pdf = entry.triangle_pdf[triangle] * squared / std::abs(cosine);
   sample.radiance = entry.triangle_emission[index];
+  if (entry.by_shader) ask_surface(sample, entry.object, triangle);
   return sample;
 }
 
@@ -222,7 +254,51 @@ LightSample LightSet::sample_sphere(const Entry& entry, const Vec3& point, const
   sample.distance = float(first);
   sample.radiance = entry.emission;
   sample.pdf = 1 / (2 * kPi * one_minus_cos);
+  if (entry.by_shader) ask_surface(sample, entry.object, 0);
   return sample;
+}
+
+/// Density per area in the world of a point drawn uniformly on a sphere in object space, `unit` being its normal there.
+static float ellipsoid_pdf(const PlacedObject& placed, const Vec3& unit) {
+  float r = placed.object->radius, volume = placed.scale * placed.scale * placed.scale;
+  return 1 / (4 * kPi * r * r * volume * glm::length(placed.normal_matrix * unit));
+}
+
+LightSample LightSet::sample_ellipsoid(const Entry& entry, const Vec3& point, const Vec2& u) const {
+  const PlacedObject& placed = geometry_.objects()[entry.object];
+  float z = 1 - 2 * u.x, r = std::sqrt(std::max(0.0f, 1 - z * z));
+  Vec3 unit(r * std::cos(2 * kPi * u.y), r * std::sin(2 * kPi * u.y), z);
+  Vec3 to = Vec3(placed.object->to_world * Vec4(unit * placed.object->radius, 1)) - point;
+  float squared = glm::dot(to, to);
+  LightSample sample;
+  if (!(squared > 0)) return sample;
+  sample.distance = std::sqrt(squared);
+  sample.direction = to / sample.distance;
+  float cosine = std::abs(glm::dot(normalize_or(placed.normal_matrix * unit, unit), sample.direction));
+  if (cosine == 0) return sample;
+  sample.pdf = ellipsoid_pdf(placed, unit) * squared / cosine;
+  sample.radiance = entry.emission;
+  if (entry.by_shader) ask_surface(sample, entry.object, 0);
+  return sample;
+}
+
+LightSample LightSet::sample_point(const Entry& entry, const Vec3& point) const {
+  Vec3 to = entry.light.position - point;
+  float squared = glm::dot(to, to);
+  if (!(squared > 0)) return {};
+  float distance = std::sqrt(squared);
+  LightSample sample{to / distance, distance, entry.light.color / squared, 1, true};
+  if (entry.kind == Kind::Spot) sample.radiance *= spot_share(entry, sample.direction);
+  return sample;
+}
+
+/// Of a spot's intensity along its axis, in the direction opposite to `to_light`.
+float LightSet::spot_share(const Entry& entry, const Vec3& to_light) {
+  float cosine = -glm::dot(to_light, entry.light.direction);
+  if (cosine <= entry.cos_outer) return 0;
+  if (cosine >= entry.cos_inner) return 1;
+  float t = (cosine - entry.cos_outer) / (entry.cos_inner - entry.cos_outer);
+  return t * t * (3 - 2 * t);
 }
 
 LightSample LightSet::sample_light(size_t light, const Vec3& point, const Vec2& u) const {
@@ -249,14 +325,15 @@ LightSample LightSet::sample_entry(const Entry& entry, const Vec3& point, const 
     float r = std::sqrt(std::max(0.0f, 1 - height * height)), phi = 2 * kPi * u.y;
     return sample_environment(Vec3(r * std::cos(phi), height, r * std::sin(phi)));
   }
+  case Kind::Around:
+    return sample_environment(environments_[entry.around].sample(u));
+  case Kind::Ellipsoid:
+    return sample_ellipsoid(entry, point, u);
   case Kind::Point:
+  case Kind::Spot:
     break;
   }
-  Vec3 to = entry.light.position - point;
-  float squared = glm::dot(to, to);
-  if (!(squared > 0)) return {};
-  float distance = std::sqrt(squared);
-  return {to / distance, distance, entry.light.color / squared, 1, true};
+  return sample_point(entry, point);
 }
 
 LightSample LightSet::sample(const Vec3& point, float choice, const Vec2& u) const {
@@ -279,14 +356,22 @@ float LightSet::object_pdf(uint32_t object, uint32_t primitive, const Vec3& from
   }
   float cosine = std::abs(glm::dot(normal, direction));
   if (!(cosine > 0)) return 0;
+  if (entry.kind == Kind::Ellipsoid) {
+    const PlacedObject& placed = geometry_.objects()[object];
+    Vec3 unit = normalize_or(glm::transpose(placed.linear) * normal, normal);
+    return ellipsoid_pdf(placed, unit) * distance * distance / (cosine * float(lights_.size()));
+  }
   return entry.triangle_pdf[primitive] * distance * distance / (cosine * float(lights_.size()));
 }
 
 Vec3 LightSet::sky_irradiance(const Vec3& normal) const {
-  if (irradiance_.empty()) return Vec3(0);
+  Vec3 around(0);
+  for (const Environment& environment : environments_)
+    around += environment.irradiance(normal);
+  if (irradiance_.empty()) return around;
   float at = (normal.y + 1) * 0.5f * float(irradiance_.size() - 1);
   size_t low = std::min(size_t(std::max(at, 0.0f)), irradiance_.size() - 2);
-  return glm::mix(irradiance_[low], irradiance_[low + 1], at - float(low));
+  return around + glm::mix(irradiance_[low], irradiance_[low + 1], at - float(low));
 }
 
 } // namespace moonshade::renderer

@@ -1,11 +1,13 @@
-// All lights of a scene, ready to be sampled: points, sun, sky, and objects whose material emits a constant. (Objects
-// whose emission comes from a shader are found by the rays that hit them.) A light is chosen uniformly.
+// All lights of a scene, ready to be sampled: points, spots, sun, sky, surroundings, and objects whose material emits,
+// by their average emission. A light is chosen uniformly.
 //
-// Directions that leave the scene form one "environment" of sun and sky: its radiance and density are sums over both,
-// so that a direction drawn for one of them is weighed as the mixture that it is.
+// Directions that leave the scene form one "environment" of sun, sky and surroundings: its radiance and density are
+// sums over all, so that a direction drawn for one of them is weighed as the mixture that it is.
 #pragma once
 
 #include "renderer/geometry/geometry.h"
+#include "renderer/lights/emission.h"
+#include "renderer/lights/environment.h"
 #include "renderer/scene/scene.h"
 
 #include <optional>
@@ -14,6 +16,9 @@
 
 namespace moonshade::renderer {
 
+/// Who says what a light sends: the sample itself, or a shader yet to be asked.
+enum class Emitter : uint8_t { Known, Surface, Surroundings };
+
 /// Light that may arrive at a point from a direction, if nothing is in between.
 struct LightSample {
   Vec3 direction{0};
@@ -21,12 +26,15 @@ struct LightSample {
   Vec3 radiance{0};   ///< black: nothing from here. For a light without extent: irradiance on a facing surface
   float pdf = 0;      ///< per solid angle, choice of the light included
   bool delta = false; ///< no ray can find it by chance; then `pdf` is that of the choice alone
+  /// Where not Known, `radiance` is 1 and still to be multiplied by what is emitted towards the point.
+  Emitter emitter = Emitter::Known;
+  uint32_t object = 0, primitive = 0; ///< Surface
 };
 
 class LightSet {
 public:
-  /// `emission` gives each material's constant emission, or nothing.
-  LightSet(const Scene& scene, const Geometry& geometry, std::span<const std::optional<Vec3>> emission);
+  LightSet(const Scene& scene, const Geometry& geometry, std::vector<ObjectEmission> emission,
+           std::vector<Environment> environments);
 
   size_t count() const { return lights_.size(); }
   /// One light chosen by `choice`.
@@ -34,9 +42,17 @@ public:
   /// A given light by itself, as direct lighting sums them: the density is that of this light alone, and the sun counts
   /// as irradiance from a direction within its disc. Not for skies.
   LightSample sample_light(size_t light, const Vec3& point, const Vec2& u) const;
-  bool is_sky(size_t light) const { return lights_[light].kind == Kind::Sky; }
+  bool is_sky(size_t light) const { return lights_[light].kind == Kind::Sky || lights_[light].kind == Kind::Around; }
 
+  /// What shaders give excluded.
   Vec3 environment(const Vec3& direction) const;
+  /// Surroundings by shaders, whose radiance is to be added to that.
+  bool asks_shaders() const { return asks_shaders_; }
+  /// Objects whose emission a shader gives.
+  bool asks_surfaces() const {
+    return std::any_of(lights_.begin(), lights_.end(), [](const Entry& e) { return e.by_shader; });
+  }
+  std::span<const Environment> environments() const { return environments_; }
   /// Density of `sample` for a direction that leaves the scene.
   float environment_pdf(const Vec3& direction) const;
   /// Density of `sample` for a point on an object, seen from `distance` away along `direction`; 0 where the object is
@@ -47,7 +63,7 @@ public:
   Vec3 sky_irradiance(const Vec3& normal) const;
 
 private:
-  enum class Kind : uint8_t { Point, Sun, Sky, Mesh, Sphere };
+  enum class Kind : uint8_t { Point, Spot, Sun, Sky, Around, Mesh, Sphere, Ellipsoid };
   struct Entry {
     Kind kind = Kind::Point;
     Light light{};
@@ -59,22 +75,31 @@ private:
     std::vector<float> cumulative;       ///< Mesh: over their weights; Sky: over bands of height
     std::vector<float> triangle_pdf;     ///< Mesh: density per area, by primitive; 0 where it does not emit
     std::vector<Vec3> triangle_emission; ///< Mesh: parallel to `triangles`
-    Vec3 emission{0};                    ///< Sphere
+    Vec3 emission{0};                    ///< Sphere, Ellipsoid
+    bool by_shader = false;              ///< emission is a mean
     bool one_sided = false;
+    float cos_inner = 1, cos_outer = 1; ///< Spot
+    uint32_t around = 0;                ///< Around: index into environments_
   };
 
   void add_sky(const Light& light);
-  void add_mesh(const PlacedObject& placed, uint32_t id, std::span<const std::optional<Vec3>> emission);
-  void add_sphere(const PlacedObject& placed, uint32_t id, const Vec3& emission);
+  void add_point_or_sun(const Light& light);
+  void add_mesh(const PlacedObject& placed, uint32_t id, const ObjectEmission& emission);
+  void add_sphere(const PlacedObject& placed, uint32_t id, const ObjectEmission& emission);
   LightSample sample_mesh(const Entry& entry, const Vec3& point, const Vec2& u) const;
   LightSample sample_sphere(const Entry& entry, const Vec3& point, const Vec2& u) const;
+  LightSample sample_ellipsoid(const Entry& entry, const Vec3& point, const Vec2& u) const;
+  LightSample sample_point(const Entry& entry, const Vec3& point) const;
   LightSample sample_entry(const Entry& entry, const Vec3& point, const Vec2& u) const;
   LightSample sample_environment(const Vec3& direction) const;
   static Vec3 sky_radiance(const Light& light, float height);
   static float sky_pdf(const Entry& entry, float height);
+  static float spot_share(const Entry& entry, const Vec3& to_light);
 
   const Geometry& geometry_;
   const Scene& scene_;
+  std::vector<Environment> environments_;
+  bool asks_shaders_ = false;
   std::vector<Entry> lights_;
   std::vector<uint32_t> environment_; ///< lights that are sun or sky
   std::vector<int32_t> light_of_object_;

@@ -10,7 +10,7 @@ namespace moonshade::renderer {
 
 namespace {
 
-constexpr std::string_view kNotYet[] = {"density", "environment"};
+constexpr std::string_view kNotYet[] = {"density"};
 
 /// Everything needed to load one material's shaders.
 class MaterialLoader {
@@ -124,6 +124,7 @@ std::string MaterialLoader::load(CompiledMaterial& compiled, std::string& warnin
   compiled.emits_outward_only = material_.emits_outward_only;
   compiled.thin = material_.thin;
   compiled.absorption = material_.absorption;
+  compiled.average_emission = material_.average_emission;
   for (size_t s = 0; s < kSlotCount; ++s) {
     compiled.constants[s] = material_.values[s].value_or(slot_infos()[s].default_value);
     if (material_.shaders[s].empty()) continue;
@@ -221,17 +222,6 @@ std::vector<uint8_t> MaterialSet::passable() const {
   for (const CompiledMaterial& m : materials_)
     result.push_back(m.passable());
   return result;
-}
-
-std::vector<std::optional<Vec3>> MaterialSet::constant_emission() const {
-  std::vector<std::optional<Vec3>> emission;
-  for (const CompiledMaterial& m : materials_) {
-    if (m.calls[size_t(Slot::Emission)])
-      emission.push_back(std::nullopt);
-    else
-      emission.push_back(m.constants[size_t(Slot::Emission)]);
-  }
-  return emission;
 }
 
 void MaterialSet::shade(const CompiledMaterial& material, ShadingBatch& batch, size_t begin, size_t count,

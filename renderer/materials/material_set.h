@@ -6,6 +6,7 @@
 #include "renderer/materials/shader_source.h"
 #include "renderer/materials/shading_batch.h"
 
+#include <algorithm>
 #include <array>
 #include <map>
 #include <optional>
@@ -52,7 +53,13 @@ struct CompiledMaterial {
   bool emits_outward_only = false;
   bool thin = false;
   Vec3 absorption{0};
+  std::optional<Vec3> average_emission; ///< as the scene says
 
+  bool emits() const { return may_differ(Slot::Emission, 0) || !is_black(constants[size_t(Slot::Emission)]); }
+  /// A light sample has to ask the shader what arrives.
+  bool emission_varies() const { return emits() && (calls[size_t(Slot::Emission)] || may_differ(Slot::Opacity, 1)); }
+  bool measures_emission() const { return emission_varies() && !average_emission; }
+  Vec3 known_emission() const { return average_emission.value_or(constants[size_t(Slot::Emission)]); }
   /// Light may pass straight through: shadows have to look twice.
   bool passable() const { return may_differ(Slot::Opacity, 1) || (thin && may_differ(Slot::Transmission, 0)); }
   bool may_differ(Slot slot, float value) const {
@@ -80,8 +87,9 @@ public:
   /// By material: whether light may pass straight through.
   std::vector<uint8_t> passable() const;
   bool any_passable() const { return any_passable_; }
-  /// Emission that is a constant, by material.
-  std::vector<std::optional<Vec3>> constant_emission() const;
+  bool any_emits() const {
+    return std::any_of(materials_.begin(), materials_.end(), [](const CompiledMaterial& m) { return m.emits(); });
+  }
   /// Lanes of the compiled shaders; 1 where there are none.
   unsigned width() const { return width_; }
 

@@ -37,7 +37,8 @@ private:
   void render(SceneFields& fields);
   void material(SceneFields& fields, const SceneCall& call, size_t index);
   void slot(SceneFields& fields, Material& material, Slot slot);
-  void parameters(SceneFields& fields, Material& material);
+  void parameters(SceneFields& fields, std::map<std::string, Constant>& parameters);
+  void environment(SceneFields& fields, Light& light, const SceneCall& call);
   void light(SceneFields& fields, const SceneCall& call);
   void area_light(SceneFields& fields);
   void obj(SceneFields& fields);
@@ -111,7 +112,7 @@ void SceneBuilder::slot(SceneFields& fields, Material& material, Slot slot) {
         Vec3(float(fields.number(info.name, 0, slot == Slot::Ior ? 1 : 0, slot == Slot::Ior ? 100 : 1)));
 }
 
-void SceneBuilder::parameters(SceneFields& fields, Material& material) {
+void SceneBuilder::parameters(SceneFields& fields, std::map<std::string, Constant>& parameters) {
   const SceneValue* value = fields.find("params");
   if (!value) return;
   const auto* list = std::get_if<SceneValue::Fields>(&value->value);
@@ -120,13 +121,13 @@ void SceneBuilder::parameters(SceneFields& fields, Material& material) {
   if (!list) return;
   for (const auto& [name, v] : *list) {
     if (auto* b = std::get_if<bool>(&v.value))
-      material.parameters[name] = *b;
+      parameters[name] = *b;
     else if (auto* i = std::get_if<int64_t>(&v.value))
-      material.parameters[name] = *i;
+      parameters[name] = *i;
     else if (auto* d = std::get_if<double>(&v.value))
-      material.parameters[name] = *d;
+      parameters[name] = *d;
     else if (auto* s = std::get_if<std::string>(&v.value))
-      material.parameters[name] = *s;
+      parameters[name] = *s;
     else if (auto* items = std::get_if<SceneValue::List>(&v.value)) {
       std::vector<double> numbers;
       for (const SceneValue& item : *items) {
@@ -137,7 +138,7 @@ void SceneBuilder::parameters(SceneFields& fields, Material& material) {
       }
       if (numbers.size() != items->size() || numbers.size() < 2 || numbers.size() > 4)
         fields.fail("parameter '" + name + "' is a list of 2 to 4 numbers");
-      material.parameters[name] = std::move(numbers);
+      parameters[name] = std::move(numbers);
     } else {
       fields.fail("parameter '" + name + "' is no value that a parameter can have");
     }
@@ -156,7 +157,8 @@ void SceneBuilder::material(SceneFields& fields, const SceneCall& call, size_t i
   m.bump = BumpMode(fields.choice("bump", kBumps));
   m.thin = fields.boolean("thin", false);
   m.absorption = fields.color("absorption", Vec3(0));
-  parameters(fields, m);
+  if (fields.has("average_emission")) m.average_emission = fields.color("average_emission", Vec3(0));
+  parameters(fields, m.parameters);
   for (const char* later : {"density", "anisotropy"})
     if (call.fields.contains(later))
       fields.fail("'" + std::string(later) + "' is not available yet"), fields.find(later);
@@ -250,9 +252,20 @@ void SceneBuilder::area_light(SceneFields& fields) {
   add(std::move(object));
 }
 
+void SceneBuilder::environment(SceneFields& fields, Light& light, const SceneCall& call) {
+  light.kind = LightKind::Environment;
+  light.place = place(call);
+  light.name = fields.text("name", "environment");
+  light.rotate = float(fields.number("rotate", 0));
+  std::string image = fields.text("image"), shader = fields.text("shader");
+  if (image.empty() == shader.empty()) return fields.fail("either 'image' or 'shader' names a file");
+  (image.empty() ? light.shader : light.image) =
+      file(fields, image.empty() ? "shader" : "image", image.empty() ? shader : image);
+  if (!shader.empty()) parameters(fields, light.parameters);
+}
+
 void SceneBuilder::light(SceneFields& fields, const SceneCall& call) {
-  static constexpr std::string_view kTypes[] = {"sun", "sky", "point", "area"};
-  (void)call;
+  static constexpr std::string_view kTypes[] = {"sun", "sky", "point", "area", "spot", "environment"};
   fields.require("type");
   size_t type = fields.choice("type", kTypes);
   if (type == 3) return area_light(fields);
@@ -270,10 +283,18 @@ void SceneBuilder::light(SceneFields& fields, const SceneCall& call) {
     light.zenith = fields.color("zenith", plain ? Vec3(1) : Vec3(0.18f, 0.32f, 0.65f)) * color * intensity;
     light.horizon = fields.color("horizon", plain ? Vec3(1) : Vec3(0.62f, 0.70f, 0.80f)) * color * intensity;
     light.ground = fields.color("ground", plain ? Vec3(1) : Vec3(0.24f, 0.22f, 0.20f)) * color * intensity;
+  } else if (type == 5) {
+    environment(fields, light, call);
   } else {
-    light.kind = LightKind::Point;
+    light.kind = type == 4 ? LightKind::Spot : LightKind::Point;
     fields.require("position");
     light.position = fields.vector("position", Vec3(0));
+    if (type == 4) {
+      light.direction = normalize_or(fields.vector("to", Vec3(0)) - light.position, Vec3(0));
+      light.angle = float(fields.number("angle", 40, 0.01, 180));
+      light.blend = float(fields.number("blend", light.blend, 0, 1));
+      if (is_black(light.direction)) fields.fail("'position' and 'to' are the same point");
+    }
   }
   light.color = color * intensity;
   scene_.lights.push_back(light);

@@ -60,8 +60,9 @@ TEST_F(LuaScene, NamesLineAndNearestNameOfWrongFields) {
             "s.lua:1: light: 'u' lies between -1e+09 and 1e+09");
   EXPECT_EQ(error("sphere{ center = {1, 2} }"), "s.lua:1: sphere: 'center' is a list of 3 numbers");
   EXPECT_EQ(error("sphere{ center = {1, 2, 0/0} }"), "s.lua:1: sphere: 'center' is a list of 3 numbers");
-  EXPECT_EQ(error("sphere{}\nlight{ type = 'sum' }"),
-            "s.lua:2: light: unknown type 'sum'; did you mean 'sun'? (known: sun, sky, point, area)");
+  EXPECT_EQ(
+      error("sphere{}\nlight{ type = 'sum' }"),
+      "s.lua:2: light: unknown type 'sum'; did you mean 'sun'? (known: sun, sky, point, area, spot, environment)");
   EXPECT_EQ(error("sphere{}\nlight{}"), "s.lua:2: light: the field 'type' is missing");
   EXPECT_EQ(error("render{ width = 1.5 }"), "s.lua:1: render: 'width' is an integer");
   EXPECT_EQ(error("sphere{ material = 'gold' }"), "s.lua:1: sphere: there is no material 'gold'");

@@ -31,12 +31,14 @@ Camera framing_camera(const Box& box) {
 
 void add_daylight(Scene& scene) {
   Light sky;
+  sky.by_default = true;
   sky.kind = LightKind::Sky;
   sky.zenith = Vec3(0.14f, 0.25f, 0.50f);
   sky.horizon = Vec3(0.45f, 0.52f, 0.62f);
   sky.ground = Vec3(0.13f, 0.12f, 0.11f);
   scene.lights.push_back(sky);
   Light sun;
+  sun.by_default = true;
   sun.kind = LightKind::Sun;
   sun.direction = glm::normalize(Vec3(-0.55f, 0.75f, 0.6f));
   sun.color = Vec3(2.1f, 1.95f, 1.7f);

@@ -72,6 +72,8 @@ struct Material {
   bool emits_outward_only = false; ///< an area light's
   bool thin = false;               ///< a sheet: what is transmitted goes on unbent
   Vec3 absorption{0};              ///< of a solid that transmits, per unit of length in world space
+  /// What a light whose emission a shader gives is sampled by; nothing: measured.
+  std::optional<Vec3> average_emission;
 };
 
 enum class Shape : uint8_t { Mesh, Sphere };
@@ -85,16 +87,25 @@ struct Object {
   std::vector<uint32_t> materials; ///< indices into Scene::materials
 };
 
-enum class LightKind : uint8_t { Point, Sun, Sky };
+enum class LightKind : uint8_t { Point, Sun, Sky, Spot, Environment };
 
 /// Lights that are no objects. (Area lights are objects whose material emits.)
 struct Light {
   LightKind kind = LightKind::Point;
-  Vec3 position{0};        ///< Point
-  Vec3 direction{0, 1, 0}; ///< Sun: unit vector towards it
-  Vec3 color{1};           ///< Point: intensity (per steradian); Sun: irradiance on a surface that faces it
-  float angle = 0.53f;     ///< Sun: apparent diameter in degrees
+  bool by_default = false; ///< the scene says nothing of light: goes where a shader turns out to emit
+  Vec3 position{0};        ///< Point, Spot
+  Vec3 direction{0, 1, 0}; ///< Sun: unit vector towards it; Spot: the way it shines
+  /// Point, Spot: intensity (per steradian), of a spot along its axis; Sun: irradiance on a surface that faces it;
+  /// Environment: what the image or the shader is multiplied by
+  Vec3 color{1};
+  float angle = 0.53f;                   ///< Sun: apparent diameter in degrees; Spot: of its cone
+  float blend = 0.2f;                    ///< Spot: share of the cone's half angle over which it fades
   Vec3 zenith{1}, horizon{1}, ground{1}; ///< Sky: radiance overhead, at the horizon and below it
+  // Environment
+  std::string name, place;   ///< for messages
+  std::string image, shader; ///< one of them: a file
+  std::map<std::string, Constant> parameters;
+  float rotate = 0; ///< around y, in degrees
 };
 
 struct Camera {

@@ -82,6 +82,21 @@ TEST(Images, ThreadsChangeNothing) {
               one.result.picture.pixels);
 }
 
+TEST(Images, LightsAndTransparentSurfacesGiveTheSameBitsToo) {
+  for (IntegratorKind integrator : {IntegratorKind::Path, IntegratorKind::Whitted}) {
+    auto change = [&](Scene& scene) { scene.settings.integrator = integrator; };
+    Outcome one = render_file("lights.scene.lua", {.width = 1}, {}, {.threads = 1}, change);
+    ASSERT_EQ(one.error, "");
+    EXPECT_EQ(one.result.fault_count, 0u);
+    for (unsigned width : {4u, 16u})
+      for (unsigned threads : {2u, 3u})
+        EXPECT_EQ(
+            render_file("lights.scene.lua", {.width = width}, {}, {.threads = threads}, change).result.picture.pixels,
+            one.result.picture.pixels)
+            << width << " lanes, " << threads << " threads";
+  }
+}
+
 TEST(Images, ParametersReachTheShader) {
   Outcome plain = render_file("bumpy.scene.lua");
   Outcome other = render_file("bumpy.scene.lua", {}, {{"bumpy", {{"tint", "0.1,0.9,0.1"}}}});
