@@ -1,5 +1,6 @@
 // The order of a check: globals, entry points, inference, the reporting walk over all that the program consists of,
 // then the bodies that nothing calls, which are walked with unknown arguments so that their errors are reported too.
+#include "compiler/sema/annotations.h"
 #include "compiler/sema/context.h"
 #include "compiler/sema/entries.h"
 #include "compiler/sema/warnings.h"
@@ -70,6 +71,7 @@ Program check(const syntax::Chunk& chunk, const Options& options, Diagnostics& d
   check_uncalled(context);
   check_memory(context, entry_works, *top);
   check_typed(context);
+  if (!diagnostics.has_errors()) check_annotations(context);
   if (!diagnostics.has_errors()) check_warnings(chunk, program, diagnostics);
   return program;
 }

@@ -220,8 +220,13 @@ struct Block : Node {
   std::span<Stat* const> stats;
 };
 
-/// The comment lines that stand immediately before a statement, top to bottom, each with its `--`; often empty.
-using CommentLines = std::span<const Span>;
+/// A comment with its `--`.
+struct Comment {
+  Span span;
+  std::string_view text;
+};
+/// The comment lines that stand immediately before a statement, top to bottom; often empty.
+using CommentLines = std::span<const Comment>;
 
 struct LocalStat : StatOf<StatKind::Local> {
   std::span<Local* const> locals;

@@ -105,8 +105,12 @@ Span Parser::expect_closing(TokenKind closing, TokenKind opening, Span opening_s
 Span Parser::span_from(Span begin) const { return {file_, begin.begin, std::max(begin.begin, previous_end_)}; }
 
 CommentLines Parser::comments_of(const Token& token) {
-  const std::vector<Span>& all = lexer_.comments();
-  return arena_.copy(std::span(all).subspan(token.comments_begin, token.comments_end - token.comments_begin));
+  std::vector<Comment> comments;
+  for (uint32_t i = token.comments_begin; i < token.comments_end; ++i) {
+    const Span span = lexer_.comments()[i];
+    comments.push_back({span, text_.substr(span.begin, span.size())});
+  }
+  return arena_.copy(comments);
 }
 
 // ---- errors --------------------------------------------------------------------------------------------------------

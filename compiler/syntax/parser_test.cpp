@@ -206,8 +206,8 @@ TEST(Parser, KeepsTheCommentLinesAboveDeclarations) {
                       "--- b\nlocal function g() end\n--- c\nx = 1");
   const auto lines = [&](CommentLines comments) {
     std::string result;
-    for (const Span span : comments)
-      result += std::string(parsed.text_of(span)) + "|";
+    for (const Comment& comment : comments)
+      result += std::string(parsed.text_of(comment.span)) + "|";
     return result;
   };
   EXPECT_EQ(lines(parsed.stat<FunctionStat>(0).comments), "---@param p vec3|---@return number|");

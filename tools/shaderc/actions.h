@@ -7,6 +7,8 @@ namespace moonshade::shaderc {
 
 /// --emit
 int emit_stage(const CheckedShader& shader, const Options& options);
+/// --emit=luals
+int emit_luals(const Options& options);
 /// --run
 int run_shader(const CheckedShader& shader, const Options& options);
 

@@ -1,4 +1,5 @@
 // --emit: one stage of the compiler as text or object file.
+#include "compiler/sema/luals.h"
 #include "tools/shaderc/actions.h"
 #include "tools/support/exit_status.h"
 #include "tools/support/files.h"
@@ -7,15 +8,26 @@
 
 namespace moonshade::shaderc {
 
+namespace {
+
+int write_output(const Options& options, const std::string& bytes) {
+  const std::string output = options.output.empty() ? "-" : options.output;
+  if (const std::string error = tools::write_file(output, bytes); !error.empty()) {
+    std::cerr << "shaderc: error: cannot write '" << output << "': " << error << "\n";
+    return tools::kMachineAtFault;
+  }
+  return tools::kDone;
+}
+
+} // namespace
+
+int emit_luals(const Options& options) { return write_output(options, sema::luals_definitions()); }
+
 int emit_stage(const CheckedShader& shader, const Options& options) {
   if (!shader.ok() && *options.emit != Stage::Ast) return tools::kInputAtFault;
   const Emission emission = emit(shader, *options.emit, options.compile, options.prefix);
   if (!emission.error.empty()) return call_error(emission.error);
-  const std::string output = options.output.empty() ? "-" : options.output;
-  if (const std::string error = tools::write_file(output, emission.bytes); !error.empty()) {
-    std::cerr << "shaderc: error: cannot write '" << output << "': " << error << "\n";
-    return tools::kMachineAtFault;
-  }
+  if (const int status = write_output(options, emission.bytes); status != tools::kDone) return status;
   return shader.ok() ? tools::kDone : tools::kInputAtFault;
 }
 

@@ -38,6 +38,7 @@ int check_files(const Options& options, Reporter& reporter) {
 }
 
 int work(const Options& options) {
+  if (options.luals) return emit_luals(options);
   Reporter reporter(options);
   int status = tools::kDone;
   if (!options.emit && !options.run) {

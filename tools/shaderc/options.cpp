@@ -34,8 +34,8 @@ struct Raw {
 void add_output_options(CLI::App& app, Options& options, Raw& raw) {
   const char* group = "What to do (default: check)";
   app.add_option("--emit", raw.emit, "Write that stage")
-      ->option_text("ast|ir|llvm|asm|obj|header")
-      ->check(CLI::IsMember({"ast", "ir", "llvm", "asm", "obj", "header"}))
+      ->option_text("ast|ir|llvm|asm|obj|header|luals")
+      ->check(CLI::IsMember({"ast", "ir", "llvm", "asm", "obj", "header", "luals"}))
       ->group(group);
   app.add_option("-o", options.output, "File for --emit; - = standard output")->option_text("FILE")->group(group);
   app.add_option("--prefix", options.prefix, "How names in obj and header begin (default: the file's name)")
@@ -154,11 +154,13 @@ bool is_identifier(const std::string& text) {
 std::string contradiction(const Options& options) {
   const int actions = int(options.emit.has_value()) + int(options.describe) + int(options.run);
   if (actions > 1) return "--emit, --describe and --run exclude each other";
-  if (options.files.empty()) return "no file is given";
+  if (options.luals && (options.describe || options.run)) return "--emit, --describe and --run exclude each other";
+  if (options.luals && !options.files.empty()) return "--emit=luals takes no file: it describes the library";
+  if (options.files.empty() && !options.luals) return "no file is given";
   if (!options.prefix.empty() && !is_identifier(options.prefix))
     return "--prefix: '" + options.prefix + "' cannot begin a name in C";
   if (options.files.size() > 1 && (options.emit || options.run)) return "--emit and --run take one file";
-  if (!options.emit && !options.output.empty()) return "-o stands with --emit";
+  if (!options.emit && !options.luals && !options.output.empty()) return "-o stands with --emit";
   if (!options.run && !options.inputs.empty()) return "--input stands with --run";
   if (!options.run && !options.points.empty()) return "--points stands with --run";
   if (!options.run && options.interpret) return "--interpret stands with --run";
@@ -181,6 +183,7 @@ bool colour_wanted() {
 
 void settle(Options& options, const Raw& raw) {
   options.emit = stage_of(raw.emit);
+  options.luals = raw.emit == "luals";
   options.compile.precision = raw.precision == "f64" ? Precision::F64 : Precision::F32;
   options.compile.width = raw.width == "auto" ? 0 : unsigned(std::stoul(raw.width));
   options.compile.optimization = std::stoi(raw.optimization);

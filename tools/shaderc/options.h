@@ -19,6 +19,7 @@ struct Options {
   std::optional<Stage> emit;
   std::string output; ///< of --emit; empty or "-": standard output
   std::string prefix; ///< of names in an object and its header; empty: from the file's name
+  bool luals = false; ///< --emit=luals
   bool describe = false;
 
   bool run = false;
