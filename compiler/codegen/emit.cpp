@@ -152,6 +152,10 @@ void FunctionEmitter::emit(ir::ValueId id, const ir::Instruction& instruction) {
     return set(id, load_global(instruction.index));
   case Op::StoreGlobal:
     return store_global(instruction.index, operand(0));
+  case Op::LoadGlobalElement:
+    return set(id, load_global_element(instruction.index, operand(0)));
+  case Op::StoreGlobalElement:
+    return store_global_element(instruction.index, operand(0), operand(1));
   case Op::Load:
     return set(id, load_slot(activation_->variables[instruction.index]));
   case Op::Store:

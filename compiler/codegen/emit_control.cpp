@@ -27,6 +27,8 @@ bool FunctionEmitter::is_cheap(const ir::Block& block, size_t from) const {
     case Op::Step:
     case Op::Div:
     case Op::StoreElement:
+    case Op::LoadGlobalElement:
+    case Op::StoreGlobalElement:
     case Op::Print:
       return false;
     default:

@@ -145,4 +145,42 @@ void FunctionEmitter::store_global(ir::GlobalId global, const Lanes& lanes) {
     builder.CreateStore(to_memory(builder, domain_, type, lanes.parts[c]), global_pointer(global, c));
 }
 
+/// Of the element `index` (clamped), for one value or for each lane.
+llvm::Value* FunctionEmitter::global_element_pointer(ir::GlobalId global, llvm::Value* index, unsigned component) {
+  const ValueType type = owner_.module.globals[global].type;
+  llvm::Value* stride = llvm::ConstantInt::get(index->getType(), component_count(type));
+  llvm::Value* number =
+      builder.CreateAdd(builder.CreateMul(index, stride), llvm::ConstantInt::get(index->getType(), component));
+  if (number->getType()->isVectorTy()) number = builder.CreateTrunc(number, domain_.lanes(builder.getInt32Ty()));
+  return builder.CreateGEP(domain_.memory(type), global_pointer(global, 0), number);
+}
+
+Lanes FunctionEmitter::load_global_element(ir::GlobalId global, const Lanes& index) {
+  const ir::Global& variable = owner_.module.globals[global];
+  llvm::Value* clamped = clamp_index(index.parts[0], variable.count);
+  const llvm::Align align(domain_.memory_size(variable.type));
+  Lanes lanes;
+  for (unsigned c = 0; c < component_count(variable.type); ++c) {
+    llvm::Value* address = global_element_pointer(global, clamped, c);
+    llvm::Instruction* load;
+    if (clamped->getType()->isVectorTy())
+      load = builder.CreateMaskedGather(domain_.memory_part(variable.type, true), address, align);
+    else
+      load = builder.CreateLoad(domain_.memory(variable.type), address);
+    if (owner_.constants_are_final && llvm::isa<llvm::LoadInst>(load))
+      load->setMetadata(llvm::LLVMContext::MD_invariant_load, llvm::MDNode::get(domain_.context, {}));
+    lanes.parts.push_back(from_memory(builder, variable.type, load));
+  }
+  return lanes;
+}
+
+/// The init function alone stores globals, for one point: everything in it is uniform.
+void FunctionEmitter::store_global_element(ir::GlobalId global, const Lanes& index, const Lanes& lanes) {
+  const ir::Global& variable = owner_.module.globals[global];
+  llvm::Value* clamped = clamp_index(index.parts[0], variable.count);
+  for (unsigned c = 0; c < component_count(variable.type); ++c)
+    builder.CreateStore(to_memory(builder, domain_, variable.type, lanes.parts[c]),
+                        global_element_pointer(global, clamped, c));
+}
+
 } // namespace moonshade::codegen

@@ -162,6 +162,9 @@ private:
   llvm::Value* global_pointer(ir::GlobalId global, unsigned component);
   Lanes load_global(ir::GlobalId global);
   void store_global(ir::GlobalId global, const Lanes& lanes);
+  Lanes load_global_element(ir::GlobalId global, const Lanes& index);
+  void store_global_element(ir::GlobalId global, const Lanes& index, const Lanes& lanes);
+  llvm::Value* global_element_pointer(ir::GlobalId global, llvm::Value* index, unsigned component);
 
   // emit_arithmetic.cpp
   Lanes arithmetic(const ir::Instruction& instruction);

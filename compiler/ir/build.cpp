@@ -14,8 +14,9 @@ Function declare(const sema::Specialisation& specialisation) {
   function.name = specialisation.id == 0 ? "top_level" : specialisation.name;
   function.span = specialisation.function->span;
   for (size_t i = 0; i < specialisation.parameters.size(); ++i) {
-    if (specialisation.parameters[i].kind != sema::Type::Kind::Value) continue;
-    function.parameters.push_back(specialisation.parameters[i].value);
+    const std::optional<ValueType> type = run_time_type(specialisation.parameters[i]);
+    if (!type) continue;
+    function.parameters.push_back(*type);
     function.parameter_names.emplace_back(specialisation.function->params[i]->name);
   }
   function.results = run_time_types(specialisation.results);
@@ -28,8 +29,7 @@ void declare_globals(ModuleBuild& shared) {
   shared.parameters.assign(program.info.parameters.size(), kNone);
   for (const sema::GlobalSlot& slot : program.globals) {
     const auto id = static_cast<GlobalId>(shared.module.globals.size());
-    if (slot.local != nullptr) shared.slots.emplace(slot.local, id);
-    Global global{.name = slot.name, .type = slot.type};
+    Global global{.name = slot.name, .type = slot.type, .count = slot.count};
     if (slot.parameter != kNone && program.info.parameters[slot.parameter].type == slot.type) {
       global.parameter = slot.parameter;
       shared.parameters[slot.parameter] = id;
@@ -77,21 +77,24 @@ FunctionId entry_function(Module& module, FunctionId callee, const EntryInfo& en
 
 } // namespace
 
+std::optional<ValueType> run_time_type(const sema::Type& type) {
+  if (type.kind == sema::Type::Kind::Value) return type.value;
+  if (type.kind == sema::Type::Kind::Table && type.table->is_element()) return ValueType::Integer;
+  return {};
+}
+
 std::vector<ValueType> run_time_types(const std::vector<sema::Type>& types) {
   std::vector<ValueType> result;
   for (const sema::Type& type : types)
-    if (type.kind == sema::Type::Kind::Value) result.push_back(type.value);
+    if (const auto value = run_time_type(type)) result.push_back(*value);
   return result;
 }
 
 FunctionBuild::FunctionBuild(ModuleBuild& shared, const sema::Specialisation& specialisation, Function& function)
     : shared_(shared), specialisation_(specialisation), function_(function), b_(function) {
   b_.set_span(function.span);
-  for (const syntax::Local* local : specialisation.captures) {
-    const auto found = specialisation.locals.find(local);
-    const ValueType type = found == specialisation.locals.end() ? ValueType::Number : found->second.type.value;
-    variables_.emplace(local, b_.variable(std::string(local->name), type));
-  }
+  for (const sema::Slot* slot : specialisation.captures)
+    variables_.emplace(slot, b_.variable(slot->name, slot->type, slot->count));
 }
 
 void FunctionBuild::run() {
@@ -101,6 +104,7 @@ void FunctionBuild::run() {
   if (specialisation_.id != 0) b_.step();
   receive_parameters();
   statements(*source.body);
+  if (specialisation_.id == 0 && !b_.terminated()) store_globals();
   if (!function_.results.empty() && !b_.terminated()) {
     // Sema has seen that execution cannot come here (behind error(), say).
     Values zeros;
@@ -110,40 +114,58 @@ void FunctionBuild::run() {
   }
 }
 
+void FunctionBuild::store_globals() {
+  for (GlobalId id = 0; id < shared_.program.globals.size(); ++id) {
+    const sema::GlobalSlot& global = shared_.program.globals[id];
+    if (shared_.module.globals[id].parameter != kNone) continue; // filled by the host
+    const VariableId variable = variable_of(*global.slot);
+    if (global.count == 1) {
+      b_.store_global(id, b_.load(variable));
+      continue;
+    }
+    const VariableId counter = b_.variable("", ValueType::Integer);
+    const LabelId label = b_.label();
+    b_.store(counter, b_.integer(0));
+    b_.loop(label, b_.block([&] {
+      const ValueId index = b_.load(counter);
+      b_.store_global_element(id, index, b_.load_element(variable, index));
+      const ValueId next = b_.binary(Op::Add, index, b_.integer(1));
+      b_.store(counter, next);
+      break_if(b_.compare(Op::Le, b_.integer(global.count), next), label);
+    }));
+  }
+}
+
 void FunctionBuild::receive_parameters() {
   uint32_t argument = 0;
   for (size_t i = 0; i < specialisation_.parameters.size(); ++i) {
-    if (specialisation_.parameters[i].kind != sema::Type::Kind::Value) continue;
+    if (!run_time_type(specialisation_.parameters[i])) continue;
     const syntax::Local& local = *specialisation_.function->params[i];
     const At at(b_, local.span);
-    store_local(local, b_.argument(argument++));
+    store_local(local, b_.argument(argument++), specialisation_.parameters[i]);
   }
 }
 
-std::optional<ValueType> FunctionBuild::storage_type(const syntax::Local& local) const {
-  if (const auto slot = shared_.slots.find(&local); slot != shared_.slots.end())
-    return shared_.module.globals[slot->second].type;
+const sema::LocalFact* FunctionBuild::local_fact(const syntax::Local& local) const {
   const auto found = specialisation_.locals.find(&local);
-  if (found == specialisation_.locals.end() || found->second.type.kind != sema::Type::Kind::Value) return {};
-  return found->second.type.value;
+  return found == specialisation_.locals.end() ? nullptr : &found->second;
 }
 
-VariableId FunctionBuild::variable_of(const syntax::Local& local) {
-  if (const auto found = variables_.find(&local); found != variables_.end()) return found->second;
-  const VariableId variable = b_.variable(std::string(local.name), storage_type(local).value_or(ValueType::Number));
-  variables_.emplace(&local, variable);
-  return variable;
+VariableId FunctionBuild::variable_of(const sema::Slot& slot) {
+  const auto [found, is_new] = variables_.try_emplace(&slot, kNone);
+  if (is_new) found->second = b_.variable(slot.name, slot.type, slot.count);
+  return found->second;
 }
 
-void FunctionBuild::store_local(const syntax::Local& local, ValueId value) {
-  const std::optional<ValueType> type = storage_type(local);
-  if (!type || value == kNone) return;
-  if (const auto slot = shared_.slots.find(&local); slot != shared_.slots.end()) {
-    // A slot that is a parameter is filled by the host.
-    if (shared_.module.globals[slot->second].parameter == kNone) b_.store_global(slot->second, converted(value, *type));
-    return;
-  }
-  b_.store(variable_of(local), converted(value, *type));
+void FunctionBuild::store_slot(const sema::Slot& slot, ValueId value) {
+  if (value != kNone) b_.store(variable_of(slot), converted(value, slot.type));
+}
+
+void FunctionBuild::store_local(const syntax::Local& local, ValueId value, const sema::Type& type) {
+  const sema::LocalFact* fact = local_fact(local);
+  if (fact == nullptr) return;
+  if (fact->type.kind == sema::Type::Kind::Table) value = as_table(fact->type, value, type);
+  if (fact->slot != nullptr) store_slot(*fact->slot, value);
 }
 
 const sema::ExpressionFact& FunctionBuild::fact(const syntax::Expr& expr) const {
@@ -160,8 +182,7 @@ Module build(const sema::Program& program, const BuildOptions& options) {
   Module module;
   module.step_limit = options.step_limit;
   const auto functions = static_cast<FunctionId>(program.specialisations.size());
-  ModuleBuild shared{
-      .program = program, .module = module, .slots = {}, .parameters = {}, .derivatives = Derivatives(functions)};
+  ModuleBuild shared{.program = program, .module = module, .parameters = {}, .derivatives = Derivatives(functions)};
   declare_globals(shared);
   for (const auto& specialisation : program.specialisations)
     module.functions.push_back(declare(*specialisation));

@@ -42,7 +42,18 @@ bool converts(ValueType from, ValueType to) {
          (from == ValueType::Number && component_count(to) > 1);
 }
 
-bool is_value(const sema::Type& type) { return type.kind == sema::Type::Kind::Value; }
+/// The terms of a chain of `or`s, from the left.
+std::vector<const Expr*> conditional_terms(const BinaryExpr& expr) {
+  std::vector<const Expr*> terms;
+  const Expr* rest = &expr;
+  while (const BinaryExpr* chain = as_operation(*rest, BinaryOp::Or)) {
+    terms.push_back(chain->right);
+    rest = chain->left;
+  }
+  terms.push_back(rest);
+  std::reverse(terms.begin(), terms.end());
+  return terms;
+}
 
 const LibraryFunction* find_row(std::string_view name, std::initializer_list<ValueType> types) {
   for (const LibraryFunction& row : library_overloads(name))
@@ -65,7 +76,7 @@ ValueId FunctionBuild::evaluate(const Expr& expr) {
   const At at(b_, expr.span);
   const ValueId value = evaluate_kind(expr);
   const sema::Type& type = fact(expr).type;
-  return value != kNone && is_value(type) ? converted(value, type.value) : value;
+  return value != kNone && type.is_value() ? converted(value, type.value) : value;
 }
 
 ValueId FunctionBuild::evaluate_kind(const Expr& expr) {
@@ -86,6 +97,7 @@ ValueId FunctionBuild::evaluate_kind(const Expr& expr) {
                            const Values values = call(operation);
                            return values.empty() ? kNone : values[0];
                          },
+                         [&](const TableExpr& constructor) { return table(constructor); },
                          [&](const auto&) { return kNone; }, // strings and functions
                      });
 }
@@ -94,7 +106,7 @@ FunctionBuild::Values FunctionBuild::evaluate_all(const Expr& expr) {
   if (expr.kind != ExprKind::Call && expr.kind != ExprKind::MethodCall) return {evaluate(expr)};
   const At at(b_, expr.span);
   Values values = call(expr);
-  if (!values.empty() && values[0] != kNone && is_value(fact(expr).type))
+  if (!values.empty() && values[0] != kNone && fact(expr).type.is_value())
     values[0] = converted(values[0], fact(expr).type.value);
   return values;
 }
@@ -108,6 +120,20 @@ FunctionBuild::Values FunctionBuild::evaluate_list(std::span<Expr* const> exprs)
     values.insert(values.end(), last.begin(), last.end());
   }
   return values;
+}
+
+std::vector<sema::Type> FunctionBuild::types_of(std::span<Expr* const> exprs) const {
+  std::vector<sema::Type> types;
+  for (const Expr* expr : exprs) {
+    const ExpressionFact& known = fact(*expr);
+    const bool is_last_call =
+        expr == exprs.back() && (expr->kind == ExprKind::Call || expr->kind == ExprKind::MethodCall);
+    if (is_last_call && !known.results.empty())
+      types.insert(types.end(), known.results.begin(), known.results.end());
+    else
+      types.push_back(known.type);
+  }
+  return types;
 }
 
 // ---- names
@@ -131,18 +157,14 @@ ValueId FunctionBuild::name(const NameExpr& expr) {
   case NameKind::Local:
     break;
   }
-  if (expr.local == nullptr || !storage_type(*expr.local)) return kNone;
-  if (const auto slot = shared_.slots.find(expr.local); slot != shared_.slots.end())
-    return b_.load_global(slot->second, shared_.module.globals[slot->second].type);
-  return b_.load(variable_of(*expr.local));
+  return known.slot != nullptr ? b_.load(variable_of(*known.slot)) : kNone;
 }
 
 ValueId FunctionBuild::index(const IndexExpr& expr) {
   const ExpressionFact& known = fact(expr);
+  if (known.field != nullptr) return table_index(expr);
   if (known.components.empty()) {
     if (known.name == NameKind::Constant) return constant(known);
-    if (known.name == NameKind::Global && is_value(known.type))
-      return b_.load_global(known.index, shared_.module.globals[known.index].type);
     return kNone; // a function of a library's table
   }
   const ValueId object = evaluate(*expr.object);
@@ -159,7 +181,10 @@ ValueId FunctionBuild::index(const IndexExpr& expr) {
 
 ValueId FunctionBuild::unary(const UnaryExpr& expr) {
   const ExpressionFact& known = fact(expr);
-  if (known.form == OperatorForm::Constant) return constant(known);
+  if (known.form == OperatorForm::Constant) {
+    if (fact(*expr.operand).type.kind == sema::Type::Kind::Table) evaluate(*expr.operand); // it may have effects
+    return constant(known);
+  }
   switch (expr.op) {
   case UnaryOp::Len:
     defect("a length that is no constant");
@@ -171,7 +196,8 @@ ValueId FunctionBuild::unary(const UnaryExpr& expr) {
   case UnaryOp::Neg:
     break;
   }
-  const ValueId operand = is_value(known.type) ? evaluate_as(*expr.operand, known.type.value) : evaluate(*expr.operand);
+  const ValueId operand =
+      known.type.is_value() ? evaluate_as(*expr.operand, known.type.value) : evaluate(*expr.operand);
   const Instruction& literal = b_.at(operand);
   if (literal.op == Op::ConstNumber) return b_.number(-literal.number);
   if (literal.op == Op::ConstInteger)
@@ -184,7 +210,9 @@ ValueId FunctionBuild::binary(const BinaryExpr& expr) {
   if (known.form == OperatorForm::Constant) return constant(known);
   switch (expr.op) {
   case BinaryOp::Or:
-    return known.form == OperatorForm::Conditional ? conditional(expr, known.type.value) : logical(expr);
+    if (known.form != OperatorForm::Conditional) return logical(expr);
+    return known.type.kind == sema::Type::Kind::Table ? conditional_table(expr, known.type)
+                                                      : conditional(expr, known.type.value);
   case BinaryOp::And:
     return logical(expr);
   case BinaryOp::Lt:
@@ -369,18 +397,28 @@ ValueId FunctionBuild::logical(const BinaryExpr& expr) {
   return choose(left, ValueType::Boolean, {}, left, std::move(block), right);
 }
 
+/// As below, for tables: each arm is copied into the one where they meet.
+ValueId FunctionBuild::conditional_table(const BinaryExpr& expr, const sema::Type& type) {
+  const std::vector<const Expr*> terms = conditional_terms(expr);
+  const auto from = [&](auto&& self, size_t i) -> void {
+    const At at(b_, terms[i]->span);
+    const BinaryExpr* term = i + 1 < terms.size() ? as_operation(*terms[i], BinaryOp::And) : nullptr;
+    const Expr& arm = term != nullptr ? *term->right : *terms[i];
+    const auto take = [&] { as_table(type, evaluate(arm), fact(arm).type); };
+    if (term == nullptr) return take();
+    const ValueId condition = evaluate_as(*term->left, ValueType::Boolean);
+    Block then_block = b_.block(take);
+    Block else_block = b_.block([&] { self(self, i + 1); });
+    b_.if_else(condition, std::move(then_block), std::move(else_block));
+  };
+  from(from, 0);
+  return kNone;
+}
+
 /// c and a or b, also in chains: (c and a or d and b) or e. A term `c and a` with an `a` that is not boolean gives a
 /// where c holds and passes on otherwise; any other term gives its value.
 ValueId FunctionBuild::conditional(const BinaryExpr& expr, ValueType type) {
-  std::vector<const Expr*> terms;
-  const Expr* rest = &expr;
-  while (const BinaryExpr* chain = as_operation(*rest, BinaryOp::Or)) {
-    terms.push_back(chain->right);
-    rest = chain->left;
-  }
-  terms.push_back(rest);
-  std::reverse(terms.begin(), terms.end());
-
+  const std::vector<const Expr*> terms = conditional_terms(expr);
   const auto from = [&](auto&& self, size_t i) -> ValueId {
     const At at(b_, terms[i]->span);
     const BinaryExpr* term = i + 1 < terms.size() ? as_operation(*terms[i], BinaryOp::And) : nullptr;
@@ -410,7 +448,7 @@ FunctionBuild::Values FunctionBuild::call(const Expr& expr) {
     evaluate_list(args);
     b_.fault(b_.boolean(true), FaultCode::Error, message_of(args, 0, "error"));
     // What follows is not executed, but is translated: give it a value to go on with.
-    return {is_value(known.type) ? b_.zero(known.type.value) : kNone};
+    return {known.type.is_value() ? b_.zero(known.type.value) : kNone};
   }
   Values arguments;
   if (method != nullptr) arguments.push_back(evaluate(*method->object));
@@ -443,15 +481,15 @@ FunctionBuild::Values FunctionBuild::call_specialisation(const ExpressionFact& k
   const sema::Specialisation& callee = *known.callee;
   Values passed;
   for (size_t i = 0; i < callee.parameters.size(); ++i)
-    if (is_value(callee.parameters[i]))
-      passed.push_back(converted(i < arguments.size() ? arguments[i] : kNone, callee.parameters[i].value));
+    if (const auto type = run_time_type(callee.parameters[i]))
+      passed.push_back(converted(i < arguments.size() ? arguments[i] : kNone, *type));
   const std::vector<ValueType> results = run_time_types(callee.results);
   const ValueId call = b_.call(callee.id, results, std::move(passed), captures_of(callee));
   Values values;
   uint32_t index = 0;
   for (const sema::Type& type : callee.results) {
-    values.push_back(is_value(type) ? b_.result(call, index, type.value) : kNone);
-    if (is_value(type)) ++index;
+    const std::optional<ValueType> value = run_time_type(type);
+    values.push_back(value ? b_.result(call, index++, *value) : kNone);
   }
   return values;
 }
@@ -459,8 +497,8 @@ FunctionBuild::Values FunctionBuild::call_specialisation(const ExpressionFact& k
 std::vector<VariableId> FunctionBuild::captures_of(const sema::Specialisation& callee) {
   std::vector<VariableId> captures;
   captures.reserve(callee.captures.size());
-  for (const Local* local : callee.captures)
-    captures.push_back(variable_of(*local));
+  for (const sema::Slot* slot : callee.captures)
+    captures.push_back(variable_of(*slot));
   return captures;
 }
 
@@ -479,7 +517,7 @@ FunctionBuild::Values FunctionBuild::call_library(const ExpressionFact& known, V
     arguments.push_back(integer ? b_.integer(static_cast<int64_t>(row.defaults[i])) : b_.number(row.defaults[i]));
     if (row.parameters[i] == ValueType::Boolean) arguments.back() = b_.boolean(row.defaults[i] != 0);
   }
-  const bool by_component = row.componentwise && is_value(known.type) && is_vector(known.type.value);
+  const bool by_component = row.componentwise && known.type.is_value() && is_vector(known.type.value);
   const ValueType first = by_component ? known.type.value : row.results[0];
   const ValueId call = library_value(row, first, std::move(arguments));
   Values values = {call};

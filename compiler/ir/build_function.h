@@ -17,12 +17,13 @@ namespace moonshade::ir {
 struct ModuleBuild {
   const sema::Program& program;
   Module& module;
-  std::unordered_map<const syntax::Local*, GlobalId> slots; ///< top-level locals that are globals
-  std::vector<GlobalId> parameters;                         ///< by the shader's parameter; kNone for strings
-  Derivatives derivatives;                                  ///< that the bodies call
+  std::vector<GlobalId> parameters; ///< by the shader's parameter; kNone for strings
+  Derivatives derivatives;          ///< that the bodies call
 };
 
-/// The types that a list of sema's types has at run time: those that are values.
+/// The type that a value of one of sema's types has at run time; none where it has no storage.
+std::optional<ValueType> run_time_type(const sema::Type& type);
+/// Those of a list that have one.
 std::vector<ValueType> run_time_types(const std::vector<sema::Type>& types);
 
 class FunctionBuild {
@@ -49,9 +50,13 @@ private:
 
   // Functions (build.cpp)
   void receive_parameters();
-  VariableId variable_of(const syntax::Local& local);
-  std::optional<ValueType> storage_type(const syntax::Local& local) const;
-  void store_local(const syntax::Local& local, ValueId value);
+  VariableId variable_of(const sema::Slot& slot);
+  const sema::LocalFact* local_fact(const syntax::Local& local) const;
+  /// The variable gets a value of this type; a table that is not the variable's own is copied.
+  void store_local(const syntax::Local& local, ValueId value, const sema::Type& type);
+  void store_slot(const sema::Slot& slot, ValueId value);
+  /// At the end of the top level: what shading reads is copied into globals.
+  void store_globals();
   const sema::ExpressionFact& fact(const syntax::Expr& expr) const;
   /// What sema should have refused: faults wherever it is executed, and is loud about it.
   void defect(std::string_view what);
@@ -63,6 +68,8 @@ private:
   Values evaluate_list(std::span<syntax::Expr* const> exprs);
   /// All values of one expression.
   Values evaluate_all(const syntax::Expr& expr);
+  /// The types of what evaluate_list gives.
+  std::vector<sema::Type> types_of(std::span<syntax::Expr* const> exprs) const;
   ValueId converted(ValueId value, ValueType type);
   ValueId evaluate_kind(const syntax::Expr& expr);
   ValueId name(const syntax::NameExpr& expr);
@@ -76,6 +83,7 @@ private:
   ValueId mixed_comparison(syntax::BinaryOp op, ValueId left, ValueId right);
   ValueId logical(const syntax::BinaryExpr& expr);
   ValueId conditional(const syntax::BinaryExpr& expr, ValueType type);
+  ValueId conditional_table(const syntax::BinaryExpr& expr, const sema::Type& type);
   ValueId choose(ValueId condition, ValueType type, Block then_block, ValueId then_value, Block else_block,
                  ValueId else_value);
   Values call(const syntax::Expr& expr);
@@ -96,6 +104,33 @@ private:
   // Derivatives (build_calculus.cpp)
   ValueId gradient(const sema::ExpressionFact& known, ValueId point);
   ValueId fwidth(const sema::ExpressionFact& known, ValueId point, ValueId width);
+  // Tables (build_tables.cpp). The value of a table is the number of the element that it is; kNone for one alone.
+  ValueId table(const syntax::TableExpr& expr);
+  void construct(const syntax::TableExpr& expr, const sema::Table& table, ValueId element);
+  void construct_slot(const sema::Table& table, const sema::Table::Field& field, ValueId element,
+                      const syntax::Expr& value);
+  void give_slot(const sema::Table& table, const sema::Table::Field& field, ValueId element, ValueId value,
+                 const sema::Type& type);
+  /// All of `from` into `to`, unless they are the same.
+  void copy_table(const sema::Table& to, ValueId to_element, const sema::Table& from, ValueId from_element);
+  void copy_elements(const sema::Table& to, ValueId to_element, const sema::Table& from, ValueId from_element);
+  void copy_fields(const sema::Table& to, ValueId to_slot, const sema::Table& from, ValueId from_slot);
+  /// A value where a table of this kind is to be: copied into it, where it is another one.
+  ValueId as_table(const sema::Type& to, ValueId value, const sema::Type& from);
+  /// The number of slot `index` (from 0; kNone for a record's) of a table among all its slots of that field.
+  ValueId slot_number(const sema::Table& table, ValueId element, ValueId index);
+  ValueId load_leaf(const sema::Table::Field& field, ValueId slot);
+  void store_leaf(const sema::Table::Field& field, ValueId slot, ValueId value);
+  /// The checked number of a slot that an expression names.
+  struct Access {
+    const sema::Table::Field* field = nullptr;
+    ValueId slot = kNone; ///< kNone: the field is there once
+  };
+  Access access(const syntax::IndexExpr& expr);
+  ValueId table_index(const syntax::IndexExpr& expr);
+  /// An index from 0, checked.
+  ValueId array_index(const syntax::Expr& key, uint32_t length);
+  void ipairs_loop(const syntax::GenericForStat& stat);
 
   // Statements (build_statements.cpp)
   void statements(const syntax::Block& block);
@@ -129,7 +164,7 @@ private:
   const sema::Specialisation& specialisation_;
   Function& function_;
   Builder b_;
-  std::unordered_map<const syntax::Local*, VariableId> variables_;
+  std::unordered_map<const sema::Slot*, VariableId> variables_;
   std::unordered_map<const syntax::Stat*, LabelId> labels_; ///< of loops and of labels that a goto names
   std::unordered_set<const syntax::LabelStat*> goto_targets_;
 };

@@ -76,6 +76,7 @@ void FunctionBuild::statement(const Stat& stat) {
                   [&](const RepeatStat& s) { repeat_loop(s); },
                   [&](const IfStat& s) { s.clauses.size() > kMaxNestedClauses ? if_chain(s) : if_clauses(s, 0); },
                   [&](const NumericForStat& s) { numeric_for(s); },
+                  [&](const GenericForStat& s) { ipairs_loop(s); },
                   [&](const ReturnStat& s) { return_statement(s); },
                   [&](const BreakStat& s) { b_.break_to(labels_.at(s.loop)); },
                   [&](const GotoStat& s) {
@@ -93,26 +94,32 @@ void FunctionBuild::statement(const Stat& stat) {
 
 void FunctionBuild::local(const LocalStat& stat) {
   const Values values = evaluate_list(stat.values);
+  const std::vector<sema::Type> types = types_of(stat.values);
   for (size_t i = 0; i < stat.locals.size() && i < values.size(); ++i)
-    store_local(*stat.locals[i], values[i]);
+    store_local(*stat.locals[i], values[i], types[i]);
 }
 
 void FunctionBuild::assign(const AssignStat& stat) {
+  // Objects and indices, then values, then the assignments, from right to left; sema refuses what could tell.
+  std::vector<Access> elements(stat.targets.size());
+  for (size_t i = 0; i < stat.targets.size(); ++i)
+    if (const auto* target = try_as<IndexExpr>(stat.targets[i])) elements[i] = access(*target);
   const Values values = evaluate_list(stat.values);
-  // Lua assigns from right to left; sema refuses what could tell.
+  const std::vector<sema::Type> types = types_of(stat.values);
   for (size_t i = std::min(stat.targets.size(), values.size()); i-- > 0;) {
+    if (elements[i].field != nullptr) {
+      store_leaf(*elements[i].field, elements[i].slot, values[i]);
+      continue;
+    }
     const auto* target = try_as<NameExpr>(stat.targets[i]);
     if (target == nullptr) {
       defect("an assignment that sema should have refused");
       continue;
     }
-    if (values[i] == kNone) continue;
-    if (target->local != nullptr) {
-      store_local(*target->local, values[i]);
-    } else {
-      const GlobalId global = fact(*target).index;
-      b_.store_global(global, converted(values[i], shared_.module.globals[global].type));
-    }
+    const sema::ExpressionFact& known = fact(*target);
+    ValueId value = values[i];
+    if (known.type.kind == sema::Type::Kind::Table) value = as_table(known.type, value, types[i]);
+    if (value != kNone && known.slot != nullptr) store_slot(*known.slot, value);
   }
 }
 
@@ -177,10 +184,15 @@ void FunctionBuild::repeat_loop(const RepeatStat& stat) {
 
 void FunctionBuild::return_statement(const ReturnStat& stat) {
   const Values values = evaluate_list(stat.values);
+  if (specialisation_.id == 0) store_globals();
+  const std::vector<sema::Type> types = types_of(stat.values);
   Values results;
-  for (size_t i = 0; i < specialisation_.results.size(); ++i)
-    if (specialisation_.results[i].kind == sema::Type::Kind::Value)
-      results.push_back(converted(i < values.size() ? values[i] : kNone, specialisation_.results[i].value));
+  for (size_t i = 0; i < specialisation_.results.size(); ++i) {
+    const sema::Type& result = specialisation_.results[i];
+    ValueId value = i < values.size() ? values[i] : kNone;
+    if (result.kind == sema::Type::Kind::Table) value = as_table(result, value, types[i]);
+    if (const auto type = run_time_type(result)) results.push_back(converted(value, *type));
+  }
   b_.return_values(results);
 }
 
@@ -252,7 +264,9 @@ void FunctionBuild::loop_body(const NumericForStat& stat, VariableId counter) {
   b_.step();
   {
     const At at(b_, stat.variable->span);
-    store_local(*stat.variable, b_.load(counter)); // a copy: assigning it does not disturb the loop
+    const ValueId value = b_.load(counter);
+    store_local(*stat.variable, value,
+                sema::Type::of(b_.type_of(value))); // a copy: assigning it does not disturb the loop
   }
   statements(*stat.body);
 }

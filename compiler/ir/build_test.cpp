@@ -310,13 +310,16 @@ entry f = f
 
 init top_level() {
   var $0.scale: number
+  var $1.twice: number
   %0: number = load_global @1 scale
   store $0.scale, %0
   %1: number = load $0.scale
   %2: integer = const.i 2
   %3: number = const.n 2
   %4: number = mul %1, %3
-  store_global @0 twice, %4
+  store $1.twice, %4
+  %5: number = load $1.twice
+  store_global @0 twice, %5
 }
 
 function f(p: vec3) -> vec3 {

@@ -118,6 +118,22 @@ void Builder::store(VariableId variable, ValueId value) {
   append(make_indexed(Op::Store, ValueType::Boolean, variable, {value}));
 }
 
+ValueId Builder::load_element(VariableId variable, ValueId index) {
+  return append(make_indexed(Op::LoadElement, function_.variables[variable].type, variable, {index}));
+}
+
+void Builder::store_element(VariableId variable, ValueId index, ValueId value) {
+  append(make_indexed(Op::StoreElement, ValueType::Boolean, variable, {index, value}));
+}
+
+ValueId Builder::load_global_element(GlobalId global, ValueType type, ValueId index) {
+  return append(make_indexed(Op::LoadGlobalElement, type, global, {index}));
+}
+
+void Builder::store_global_element(GlobalId global, ValueId index, ValueId value) {
+  append(make_indexed(Op::StoreGlobalElement, ValueType::Boolean, global, {index, value}));
+}
+
 ValueId Builder::load_global(GlobalId global, ValueType type) {
   return append(make_indexed(Op::LoadGlobal, type, global));
 }

@@ -37,6 +37,10 @@ public:
   ValueId argument(uint32_t index);
   ValueId load(VariableId variable);
   void store(VariableId variable, ValueId value);
+  ValueId load_element(VariableId variable, ValueId index);
+  void store_element(VariableId variable, ValueId index, ValueId value);
+  ValueId load_global_element(GlobalId global, ValueType type, ValueId index);
+  void store_global_element(GlobalId global, ValueId index, ValueId value);
   ValueId load_global(GlobalId global, ValueType type);
   void store_global(GlobalId global, ValueId value);
 

@@ -12,7 +12,8 @@ constexpr int kMaxRounds = 8;
 
 /// Executed for its value alone.
 bool is_removable(Op op) {
-  return info(op).shape == OpShape::Value || op == Op::Load || op == Op::LoadGlobal || op == Op::LoadElement;
+  return info(op).shape == OpShape::Value || op == Op::Load || op == Op::LoadGlobal || op == Op::LoadElement ||
+         op == Op::LoadGlobalElement;
 }
 
 /// Variables that something may read: loaded here, captured from outside, or passed to a call.

@@ -71,7 +71,8 @@ void remove_unread_globals(Module& module) {
   std::vector<bool> read(module.globals.size());
   for (const Function& function : module.functions)
     for_each_instruction(function, [&](ValueId id) {
-      if (function.instructions[id].op == Op::LoadGlobal) read[function.instructions[id].index] = true;
+      const Op op = function.instructions[id].op;
+      if (op == Op::LoadGlobal || op == Op::LoadGlobalElement) read[function.instructions[id].index] = true;
     });
   std::vector<GlobalId> renumbered(module.globals.size(), kNone);
   std::vector<Global> kept;
@@ -84,7 +85,8 @@ void remove_unread_globals(Module& module) {
   for (Function& function : module.functions)
     rewrite_blocks(function, [&](ValueId id, std::vector<ValueId>& result) {
       Instruction& instruction = function.instructions[id];
-      if (instruction.op == Op::LoadGlobal || instruction.op == Op::StoreGlobal) {
+      if (instruction.op == Op::LoadGlobal || instruction.op == Op::StoreGlobal ||
+          instruction.op == Op::LoadGlobalElement || instruction.op == Op::StoreGlobalElement) {
         if (renumbered[instruction.index] == kNone) return true;
         instruction.index = renumbered[instruction.index];
       }

@@ -37,7 +37,8 @@
 //   call         runs another function of the module with the operands as arguments and `variables` as its captures.
 //                There is no recursion. The value is the first result, `result` gives the others.
 //   result       result `index` (from 0) of a call or call_library
-//   load_element store_element   variable[index], index an integer from 0, in range (a `fault` before it sees to that)
+//   load_element store_element   variable[index], index an integer from 0, in range (a `fault` before it sees to that);
+//   load_global_element store_global_element   the same of a global
 //
 // Control. `if` runs block 0 or block 1. `loop` runs its block again and again until a `break` or `return` leaves it.
 // `scope` runs its block once; a `break` may leave it early. `break` names, by label, an enclosing loop or scope and

@@ -94,6 +94,7 @@ private:
   static bool gives_value(const Instruction& instruction, const Module& module) {
     switch (instruction.op) {
     case Op::LoadGlobal:
+    case Op::LoadGlobalElement:
     case Op::Load:
     case Op::LoadElement:
       return true;
@@ -139,6 +140,8 @@ private:
       out_ << ' ' << global(instruction.index);
       return;
     case Op::StoreGlobal:
+    case Op::LoadGlobalElement:
+    case Op::StoreGlobalElement:
       out_ << ' ' << global(instruction.index) << ", " << operands;
       return;
     case Op::Load:

@@ -41,7 +41,8 @@ class Sharing {
 public:
   explicit Sharing(Function& function) : function_(function), replacements_(function.instructions.size()) {
     for_each_instruction(function, [&](ValueId id) {
-      stores_globals_ = stores_globals_ || function.instructions[id].op == Op::StoreGlobal;
+      const Op op = function.instructions[id].op;
+      stores_globals_ = stores_globals_ || op == Op::StoreGlobal || op == Op::StoreGlobalElement;
     });
   }
 
@@ -49,7 +50,8 @@ public:
 
 private:
   bool is_shared(const Instruction& instruction) const {
-    if (instruction.op == Op::LoadGlobal) return !stores_globals_; // constants to all functions but init
+    if (instruction.op == Op::LoadGlobal || instruction.op == Op::LoadGlobalElement)
+      return !stores_globals_; // constants to all functions but init
     return info(instruction.op).shape == OpShape::Value && instruction.op != Op::Mul;
   }
 

@@ -49,6 +49,9 @@ private:
     case Op::StoreGlobal:
       globals_[instruction.index] = {operand(instruction, 0)};
       return Flow::Next;
+    case Op::StoreGlobalElement:
+      globals_[instruction.index].at(bits(operand(instruction, 0).integer)) = operand(instruction, 1);
+      return Flow::Next;
     case Op::Store:
       *variables_[instruction.index] = {operand(instruction, 0)};
       return Flow::Next;
@@ -117,6 +120,8 @@ private:
       return arguments_[instruction.index];
     case Op::LoadGlobal:
       return globals_[instruction.index][0];
+    case Op::LoadGlobalElement:
+      return globals_[instruction.index].at(bits(operand(instruction, 0).integer));
     case Op::Load:
       return (*variables_[instruction.index])[0];
     case Op::LoadElement:

@@ -245,8 +245,11 @@ private:
       return set(varying, signature_.arguments_varying[instruction.index]);
     case Op::LoadGlobal:
     case Op::StoreGlobal:
+    case Op::StoreGlobalElement:
     case Op::Print:
       return;
+    case Op::LoadGlobalElement:
+      return set(varying, any_varying(instruction.operands));
     case Op::Load:
       return set(varying, result_.variable_varying[instruction.index]);
     case Op::LoadElement:

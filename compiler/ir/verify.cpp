@@ -86,6 +86,7 @@ private:
     case Op::Load:
     case Op::LoadGlobal:
     case Op::LoadElement:
+    case Op::LoadGlobalElement:
       return true;
     case Op::Call:
       return instruction.index < module_.functions.size() && !module_.functions[instruction.index].results.empty();
@@ -132,6 +133,8 @@ private:
       return expect_type(id, function_.parameters[instruction.index]);
     case Op::LoadGlobal:
     case Op::StoreGlobal:
+    case Op::LoadGlobalElement:
+    case Op::StoreGlobalElement:
       return verify_global(id, instruction);
     case Op::Load:
     case Op::Store:
@@ -216,8 +219,12 @@ private:
   void verify_global(ValueId id, const Instruction& instruction) {
     if (instruction.index >= module_.globals.size()) return fail(id, "names no global");
     const Global& global = module_.globals[instruction.index];
-    if (instruction.op == Op::LoadGlobal) return expect_type(id, global.type);
-    expect_operands(id, 0, global.type);
+    const bool element = instruction.op == Op::LoadGlobalElement || instruction.op == Op::StoreGlobalElement;
+    if (!element && global.count != 1) fail(id, "works on an array");
+    if (element && operand_type(instruction, 0) != Integer) fail(id, "index is not an integer");
+    if (instruction.op == Op::LoadGlobal || instruction.op == Op::LoadGlobalElement)
+      return expect_type(id, global.type);
+    expect_operands(id, element ? 1 : 0, global.type);
     if (module_.init >= module_.functions.size() || &module_.functions[module_.init] != &function_)
       fail(id, "stands outside init");
     if (global.parameter != kNone) fail(id, "stores a parameter");

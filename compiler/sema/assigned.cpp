@@ -110,12 +110,20 @@ private:
       expression(*expr);
   }
 
+  /// A variable of a call that has ended and left the function as its result.
+  static bool is_outlived(const Work& callee, const void* variable) {
+    for (const Work* frame = callee.parent; frame != nullptr; frame = frame->parent)
+      if (frame->frame_home != nullptr && frame->variables.contains(static_cast<const Local*>(variable))) return true;
+    return false;
+  }
+
   void call(uint32_t id, Span span) {
     const auto found = work_.callees.find(id);
     if (found == work_.callees.end()) return;
     const Work& callee = *found->second.work;
     for (const Requirement& requirement : callee.requires_assigned)
-      require(requirement.variable, requirement.name, requirement.place, &span);
+      if (is_own(requirement.variable) || !is_outlived(callee, requirement.variable))
+        require(requirement.variable, requirement.name, requirement.place, &span);
     for (const void* variable : callee.assigns_always)
       state_.set(number_of(variable), true);
   }
@@ -137,6 +145,10 @@ private:
                     [&](const MethodCallExpr& node) {
                       expression(*node.object);
                       expressions(node.args);
+                    },
+                    [&](const TableExpr& table) {
+                      for (const TableField& field : table.fields)
+                        expression(*field.value);
                     },
                     [&](const ParenExpr& paren) { expression(*paren.inner); },
                     [&](const UnaryExpr& unary) { expression(*unary.operand); },
@@ -251,6 +263,9 @@ private:
                       leave_loop(node, std::move(exit));
                     },
                     [&](const GenericForStat& node) {
+                      expressions(node.values);
+                      for (const Local* variable : node.variables)
+                        if (context_.unset_locals.contains(variable)) state_.set(number_of(variable), false);
                       State exit = state_;
                       block(*node.body);
                       leave_loop(node, std::move(exit));

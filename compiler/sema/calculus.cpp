@@ -6,7 +6,6 @@
 #include "compiler/sema/walker.h"
 
 #include <algorithm>
-#include <set>
 
 namespace moonshade::sema {
 
@@ -22,18 +21,6 @@ std::string describe_results(const TypeList& results) {
   if (results.types.empty()) return "no value";
   if (results.types.size() > 1) return std::to_string(results.types.size()) + " values";
   return describe(results.types[0]);
-}
-
-/// A statement by which the function, or what it calls, assigns a variable of the top level.
-const Work::TopLevelWrite* find_top_level_write(const Work& work, std::set<const Work*>& seen) {
-  if (!seen.insert(&work).second) return nullptr;
-  if (!work.top_level_writes.empty()) return &work.top_level_writes.front();
-  const Work::TopLevelWrite* first = nullptr;
-  for (const auto& [id, callee] : work.callees) {
-    const Work::TopLevelWrite* found = find_top_level_write(*callee.work, seen);
-    if (found != nullptr && (first == nullptr || found->place.begin < first->place.begin)) first = found;
-  }
-  return first;
 }
 
 } // namespace
@@ -73,14 +60,12 @@ bool Walker::takes_derivative_arguments(const CallExpr& expr, std::string_view n
 
 /// The function must only compute: the derivative moves `p` alone, and stock Lua calls the function many times.
 bool Walker::is_free_of_effects(const Expr& function, const Work& callee, std::string_view name) {
-  std::set<const Work*> seen;
-  const Local* assigned = nullptr;
-  for (const Local* local : callee.outer_writes)
-    if (assigned == nullptr || local->id < assigned->id) assigned = local;
-  if (const Work::TopLevelWrite* write = find_top_level_write(callee, seen)) assigned = write->local;
+  const Variable* assigned = nullptr;
+  for (const Variable* variable : callee.outer_writes)
+    if (assigned == nullptr || variable->slot->id < assigned->slot->id) assigned = variable;
   if (assigned == nullptr) return true;
-  error(Code::GradientAssigns, function.span, {std::string(name), std::string(assigned->name)})
-      .note(Code::NoteDeclaredHere, assigned->span, {std::string(assigned->name)});
+  error(Code::GradientAssigns, function.span, {std::string(name), assigned->slot->name})
+      .note(Code::NoteDeclaredHere, assigned->first, {assigned->slot->name});
   return false;
 }
 
@@ -99,7 +84,7 @@ TypeList Walker::derivative_call(const CallExpr& expr, std::string_view name) {
     if (results.open) return {{type}, false};
     fact.library = choose_row(library_overloads(row), {point}).row;
   } else {
-    results = call_function(expr, *args.types[0].function, {{point}, false});
+    results = call_function(expr, args.types[0], {{point}, false});
     if (results.open || !context_.report) return {{type}, false};
     const auto callee = work_.callees.find(expr.id);
     if (callee == work_.callees.end()) return {{type}, false};

@@ -24,13 +24,8 @@ std::string spoken_name(const Function& function) {
 
 TypeList Walker::arguments(std::span<Expr* const> args) {
   TypeList list = expression_list(args);
-  for (size_t i = 0; i < list.types.size(); ++i) {
-    Type& type = list.types[i];
-    if (!is_function(type) && type.kind != Type::Kind::None) continue;
-    const Expr& arg = *args[std::min(i, args.size() - 1)];
-    if (type.kind != Type::Kind::None) error(Code::NotAvailableYet, arg.span, {"functions as arguments are"});
-    type = unknown_type();
-  }
+  for (Type& type : list.types)
+    if (type.kind == Type::Kind::None) type = unknown_type();
   return list;
 }
 
@@ -38,7 +33,7 @@ TypeList Walker::call(const CallExpr& expr) {
   const Type callee = expression(*expr.callee);
   switch (callee.kind) {
   case Type::Kind::Function:
-    return call_function(expr, *callee.function, arguments(expr.args));
+    return call_function(expr, callee, arguments(expr.args));
   case Type::Kind::Library:
     if (callee.text != "math") return call_library(expr, callee.text);
     break;
@@ -53,14 +48,24 @@ TypeList Walker::call(const CallExpr& expr) {
   return unknown_values();
 }
 
-bool Walker::is_recursive(const CallExpr& expr, const Function& function) {
-  const Work* at = &work_;
+/// A call of a function from within itself. With functions or tables among the arguments it may be another function in
+/// all but name (`twice(function(x) return twice(f, x) end, x)`), so then only a few such calls make a recursion.
+bool Walker::is_recursive(const CallExpr& expr, const WorkKey& key) {
+  constexpr size_t kMostInside = 4;
   std::vector<const Work*> chain;
-  while (at != nullptr && at->function != &function) {
+  size_t inside = 0;
+  const Work* at = &work_;
+  for (; at != nullptr; at = at->caller) {
+    if (at->function == key.function) {
+      const auto is_reference = [](const Type& type) { return is_function(type) || is_table(type); };
+      const bool is_other = at->arguments != key.arguments &&
+                            (std::ranges::any_of(key.arguments, is_reference) || at->parent != key.parent);
+      if (!is_other || ++inside == kMostInside) break;
+    }
     chain.push_back(at);
-    at = at->caller;
   }
   if (at == nullptr) return false;
+  const Function& function = *key.function;
   if (!context_.report || !context_.recursions.insert({work_.function, &function}).second) return true;
   std::string text = spoken_name(function);
   for (auto link = chain.rbegin(); link != chain.rend(); ++link)
@@ -71,26 +76,34 @@ bool Walker::is_recursive(const CallExpr& expr, const Function& function) {
   return true;
 }
 
-TypeList Walker::call_function(const CallExpr& expr, const Function& function, TypeList args) {
-  if (is_recursive(expr, function)) return unknown_values();
-  if (function.is_vararg) return unknown_values(); // refused where it is defined
+TypeList Walker::call_function(const CallExpr& expr, const Type& called, TypeList args) {
+  const Function& function = *called.function;
   const size_t count = function.params.size();
-  if (!args.open && args.types.size() < count) {
-    const size_t missing = args.types.size();
+  const bool is_complete = args.open || args.types.size() >= count;
+  const size_t given = args.types.size();
+  args.types.resize(count);
+  WorkKey key{&function, called.frame, work_.is_init, nullptr, 0, args.types};
+  if (context_.makers.contains(&function)) {
+    key.site = &work_;
+    key.call = expr.id;
+  }
+  if (is_recursive(expr, key)) return unknown_values();
+  if (function.is_vararg) return unknown_values(); // refused where it is defined
+  if (!is_complete) {
     type_error(Code::MissingArgument, expr.span,
-               {std::to_string(missing + 1), spoken_name(function), std::string(function.params[missing]->name)});
+               {std::to_string(given + 1), spoken_name(function), std::string(function.params[given]->name)});
     return unknown_values();
   }
-  args.types.resize(count);
   if (!context_.specialise_unknown && std::ranges::any_of(args.types, is_unknown)) return unknown_values();
 
-  Work* callee = context_.find_or_make(&function, lexical_owner(function.parent), args.types, expr.span);
+  Work* callee = context_.find_or_make(std::move(key), expr.span);
   if (callee == nullptr) return unknown_values();
   if (callee->round != context_.round) {
     callee->caller = &work_;
     callee->call_span = expr.span;
     context_.analyse(*callee);
   }
+  callees_[expr.id] = callee;
   TypeList results;
   if (callee->has_results && !callee->has_unequal_returns) {
     results.types = callee->results;

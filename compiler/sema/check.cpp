@@ -19,7 +19,8 @@ void check_uncalled(Context& context) {
       if (context.walked[function->index] != nullptr || function->parent == nullptr) continue;
       Work* parent = context.walked[function->parent->index];
       if (parent == nullptr) continue;
-      Work* work = context.find_or_make(function, parent, std::vector<Type>(function->params.size()), function->span);
+      Work* work = context.find_or_make(
+          {function, parent, false, nullptr, 0, std::vector<Type>(function->params.size())}, function->span);
       if (work == nullptr) return;
       roots.push_back(work);
     }
@@ -46,14 +47,15 @@ Program check(const syntax::Chunk& chunk, const Options& options, Diagnostics& d
   program.chunk = &chunk;
   Context context(chunk, diagnostics, program);
   context.globals = collect_globals(chunk);
-  Work* top = context.find_or_make(chunk.main, nullptr, {}, chunk.main->span);
+  Work* top = context.find_or_make({chunk.main, nullptr, true, nullptr, 0, {}}, chunk.main->span);
+  context.top = top;
   std::vector<EntryPlan> plans = plan_entries(context, options.entries);
 
-  std::vector<Work*> chosen = {top}, others, entry_works;
+  std::vector<Work*> chosen = {top}, others;
   for (EntryPlan& plan : plans) {
-    plan.work = context.find_or_make(plan.global->function, top, plan.inputs, plan.global->definition);
+    plan.work =
+        context.find_or_make({plan.global->function, top, false, nullptr, 0, plan.inputs}, plan.global->definition);
     if (plan.work == nullptr) return program;
-    entry_works.push_back(plan.work);
     (plan.is_selected ? chosen : others).push_back(plan.work);
   }
   std::vector<Work*> all = chosen;
@@ -69,7 +71,6 @@ Program check(const syntax::Chunk& chunk, const Options& options, Diagnostics& d
     check_assigned_for_entry(context, *top, *plan.global, *plan.work);
   }
   check_uncalled(context);
-  check_memory(context, entry_works, *top);
   check_typed(context);
   if (!diagnostics.has_errors()) check_annotations(context);
   if (!diagnostics.has_errors()) check_warnings(chunk, program, diagnostics);

@@ -110,6 +110,8 @@ std::optional<Type> Walker::conditional_type(const BinaryExpr& expr, const std::
       type_error(Code::ConditionalArm, arms[i].expr->span);
       return std::nullopt;
     }
+  if (std::ranges::any_of(arms, [](const Arm& arm) { return is_table(arm.type); }))
+    return conditional_table(expr, arms);
   Type type;
   for (const Arm& arm : arms) {
     if (is_function(arm.type)) {
@@ -125,8 +127,30 @@ std::optional<Type> Walker::conditional_type(const BinaryExpr& expr, const std::
     type = *joined;
   }
   if (type.kind != Type::Kind::String) return type;
-  error(Code::NotAvailableYet, expr.span, {"a conditional between strings is"});
+  error(Code::StringChoice, expr.span);
   return std::nullopt;
+}
+
+/// Each arm gives a table built there: they meet in one.
+std::optional<Type> Walker::conditional_table(const BinaryExpr& expr, const std::vector<Arm>& arms) {
+  Type type;
+  for (const Arm& arm : arms) {
+    if (is_unknown(arm.type)) return std::nullopt;
+    if (!is_table(arm.type)) {
+      const Type other = is_table(arms[0].type) ? arms[0].type : arms[1].type;
+      type_error(Code::ConditionalTypes, expr.span, {describe(other), describe(arm.type)});
+      return std::nullopt;
+    }
+  }
+  for (const Arm& arm : arms) {
+    const Expr& value = arm.conditional != nullptr ? *arm.conditional->right : *arm.expr;
+    type = merge_tables(is_unknown(type) ? arm.type : type, arm.type, &expr, 0, value, expr.span);
+  }
+  // The first arm alone is no table of its own.
+  return std::ranges::all_of(arms, [&](const Arm& arm) { return arm.type == arms[0].type; }) && type == arms[0].type
+             ? type
+             : merge_tables(type, arms[0].type, &expr, 0,
+                            arms[0].conditional != nullptr ? *arms[0].conditional->right : *arms[0].expr, expr.span);
 }
 
 /// `or` between booleans; the first operand that is none is refused.

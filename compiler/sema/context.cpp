@@ -9,6 +9,7 @@ namespace moonshade::sema {
 
 size_t WorkKeyHash::operator()(const WorkKey& key) const {
   size_t hash = std::hash<const void*>()(key.function) * 1000003 + std::hash<const void*>()(key.parent);
+  hash = hash * 1000003 + std::hash<const void*>()(key.site) + key.call * 2 + (key.is_init ? 1 : 0);
   for (const Type& type : key.arguments)
     hash = hash * 1000003 + hash_of(type);
   return hash;
@@ -17,8 +18,7 @@ size_t WorkKeyHash::operator()(const WorkKey& key) const {
 Context::Context(const syntax::Chunk& c, Diagnostics& d, Program& p)
     : chunk(c), diagnostics(d), program(p), walked(c.functions.size()) {}
 
-Work* Context::find_or_make(const syntax::Function* function, Work* parent, std::vector<Type> arguments, Span place) {
-  WorkKey key{function, parent, std::move(arguments)};
+Work* Context::find_or_make(WorkKey key, Span place) {
   if (const auto found = works.find(key); found != works.end()) return found->second.get();
   if (works.size() >= kMaxSpecialisations) {
     too_large(place, "the functions of this shader are called with too many lists of argument types",
@@ -26,11 +26,80 @@ Work* Context::find_or_make(const syntax::Function* function, Work* parent, std:
     return nullptr;
   }
   auto work = std::make_unique<Work>();
-  work->function = function;
-  work->parent = parent;
+  work->function = key.function;
+  work->parent = key.parent;
   work->arguments = key.arguments;
+  work->is_init = key.is_init;
+  work->site = key.site;
   in_order.push_back(work.get());
   return works.emplace(std::move(key), std::move(work)).first->second.get();
+}
+
+// ---- storage -------------------------------------------------------------------------------------------------------
+
+Work* Context::home_of(const Variable& variable) const {
+  if (variable.table != nullptr) return variable.table->outermost()->owner;
+  Work* owner = variable.owner;
+  return variable.is_captured && owner->frame_home != nullptr ? owner->frame_home : owner;
+}
+
+Place Context::place_for(Work& work, Variable& variable, std::string_view name) {
+  const Type& type = variable.type;
+  const ValueType value = type.is_value() ? type.value : ValueType::Integer; // of tables: which element
+  if (variable.slot == nullptr) {
+    program.slots.push_back(std::make_unique<Slot>());
+    variable.slot = program.slots.back().get();
+    variable.slot->id = static_cast<uint32_t>(program.slots.size());
+    variable.slot->name = name;
+  }
+  variable.slot->type = value;
+  variable.slot->count = 1;
+  if (const Table* table = variable.table) {
+    const uint64_t count = table->instances() * (table->kind == Table::Kind::Array ? table->length : 1);
+    variable.slot->count = static_cast<uint32_t>(std::min<uint64_t>(count, kMaxTableElements));
+  }
+  if (!is_frozen_for(work, variable)) {
+    if (home_of(variable) != &work) work.used.insert(&variable);
+    return {variable.slot, Place{}.global};
+  }
+  const auto [found, is_new] = globals_of.try_emplace(&variable, static_cast<uint32_t>(program.globals.size()));
+  if (is_new)
+    program.globals.push_back({variable.slot->name, value, variable.slot->count, variable.slot, variable.parameter});
+  return {nullptr, found->second};
+}
+
+Variable* Context::find_variable(Work& work, const syntax::Local& local) const {
+  Work* owner = &work;
+  while (owner != nullptr && owner->function != local.function)
+    owner = owner->parent;
+  if (owner == nullptr) return nullptr;
+  Variable& variable = owner->variables[&local];
+  variable.owner = owner;
+  variable.is_captured = local.is_captured;
+  return &variable;
+}
+
+Table* Context::table_of(Work& work, const void* syntax, unsigned which, Span span) {
+  Table*& table = tables[{&work, syntax, which}];
+  if (table == nullptr) {
+    program.tables.push_back(std::make_unique<Table>());
+    table = program.tables.back().get();
+    table->maker = table->owner = &work;
+    table->span = span;
+  }
+  return table;
+}
+
+Table* Context::inner_table(Table& outer, Table::Field& field, Span span) {
+  if (field.inner == nullptr) {
+    program.tables.push_back(std::make_unique<Table>());
+    field.inner = program.tables.back().get();
+    field.inner->outer = &outer;
+    field.inner->maker = outer.maker;
+    field.inner->owner = outer.owner;
+    field.inner->span = span;
+  }
+  return field.inner;
 }
 
 namespace {
@@ -58,34 +127,24 @@ void open_specialisation(Context& context, Work& work) {
   if (walked == nullptr) walked = &work;
 }
 
-/// Captures of this specialisation: outer locals that it uses itself (in spec->locals) or that its callees capture.
+/// Captures of this specialisation: what lives elsewhere and is used by it or its callees.
 void close_specialisation(Context& context, Work& work) {
   Specialisation& spec = *work.spec;
   if (work.has_results) spec.results = work.results;
-  const auto capture = [&](const syntax::Local* local) {
-    if (std::ranges::find(work.captures, local) == work.captures.end()) work.captures.push_back(local);
-  };
-  for (const auto& [local, fact] : spec.locals)
-    if (local->function != work.function && local->function != context.chunk.main && fact.type.is_value())
-      capture(local);
+  std::set<Variable*> captures = work.used;
   for (const auto& [id, link] : work.callees) {
-    const Work* callee = link.work;
-    work.derivative_order = std::max(work.derivative_order, callee->derivative_order);
-    for (const syntax::Local* local : callee->outer_writes)
-      if (local->function != work.function) work.outer_writes.insert(local);
-    for (const syntax::Local* local : callee->captures) {
-      if (local->function == work.function) {
-        spec.locals[local].captured_by_call = true;
-        continue;
-      }
-      capture(local);
-      spec.locals.insert({local, callee->spec->locals.at(local)}).first->second.captured_by_call = true;
-    }
+    work.derivative_order = std::max(work.derivative_order, link.work->derivative_order);
+    for (Variable* variable : link.work->captures)
+      if (context.home_of(*variable) != &work) captures.insert(variable);
+    for (Variable* variable : link.work->outer_writes)
+      if (context.home_of(*variable) != &work) work.outer_writes.insert(variable);
   }
-  std::ranges::sort(work.captures, {}, [](const syntax::Local* local) { return local->id; });
-  spec.captures = work.captures;
+  work.captures.assign(captures.begin(), captures.end());
+  std::ranges::sort(work.captures, {}, [](const Variable* variable) { return variable->slot->id; });
+  for (const Variable* variable : work.captures)
+    spec.captures.push_back(variable->slot);
   for (const auto& [local, variable] : work.variables)
-    spec.locals[local].type = variable.type;
+    spec.locals[local] = {variable.type, has_storage(variable.type) ? variable.slot : nullptr};
 }
 
 /// Conflicts that the reporting walk did not meet again.
@@ -167,7 +226,9 @@ void Context::too_large(Span span, std::string what, size_t limit) {
 void refuse_conflict(Context& context, const Work& work, const Variable& variable, std::string_view name,
                      const Type& type, Span place) {
   const Type& first = variable.first_type;
-  if (is_function(first) || is_function(type)) {
+  if (is_table(first) && is_table(type)) {
+    context.error(DiagnosticCode::TableNotKnown, place, {"'" + std::string(name) + "' stands"});
+  } else if (is_function(first) || is_function(type)) {
     context.error(DiagnosticCode::FunctionNotKnown, place, {std::string(name)});
   } else if (first.kind == Type::Kind::String && type.kind == Type::Kind::String) {
     context.error(DiagnosticCode::SeveralStrings, place, {std::string(name)})
@@ -179,8 +240,18 @@ void refuse_conflict(Context& context, const Work& work, const Variable& variabl
 }
 
 void refuse_result(Context& context, const Work& work, size_t index, const Type& type, Span place) {
-  context.type_error(work, DiagnosticCode::ResultType, place, {describe(type), describe(work.first_results[index])})
-      .note(DiagnosticCode::NoteOtherReturn, work.first_return);
+  const Type& first = work.first_results[index];
+  if (is_function(first) && is_function(type)) {
+    context.error(DiagnosticCode::FunctionChoice, place).note(DiagnosticCode::NoteOtherReturn, work.first_return);
+  } else if (is_table(first) && is_table(type)) {
+    context.error(DiagnosticCode::TableNotKnown, place, {"this stands"})
+        .note(DiagnosticCode::NoteOtherReturn, work.first_return);
+  } else if (first.kind == Type::Kind::String && type.kind == Type::Kind::String) {
+    context.error(DiagnosticCode::StringChoice, place).note(DiagnosticCode::NoteOtherReturn, work.first_return);
+  } else {
+    context.type_error(work, DiagnosticCode::ResultType, place, {describe(type), describe(first)})
+        .note(DiagnosticCode::NoteOtherReturn, work.first_return);
+  }
 }
 
 std::string signature(const Work& work) {

@@ -8,9 +8,11 @@
 #include "compiler/sema/types.h"
 
 #include <deque>
+#include <map>
 #include <memory>
 #include <set>
 #include <string>
+#include <tuple>
 #include <unordered_map>
 #include <vector>
 
@@ -23,6 +25,8 @@ inline constexpr size_t kMaxParameters = 4096;
 inline constexpr unsigned kMaxCallDepth = 200;
 inline constexpr unsigned kMaxWalkDepth = 3000;
 inline constexpr size_t kMaxFacts = 2'000'000;
+/// Elements of one table, and of all; they lie on the stack of the compiled code.
+inline constexpr uint64_t kMaxTableElements = 1 << 16;
 inline constexpr uint64_t kMaxVisits = 100'000'000;
 /// How often what stands inside each other may be differentiated.
 inline constexpr unsigned kMaxDerivativeOrder = 1;
@@ -40,8 +44,14 @@ struct Work {
   /// The specialisation of the enclosing function inside which this one is; null for the top level.
   Work* parent = nullptr;
   std::vector<Type> arguments;
+  /// It runs while the top level does; else while shading.
+  bool is_init = false;
+  /// The only one who calls it; null where anybody may.
+  Work* site = nullptr;
+  /// In whose call its captured variables live, where a result captures them; null: in its own.
+  Work* frame_home = nullptr;
 
-  /// Types of the locals of this function, in every scope.
+  /// The locals of this function, in every scope.
   std::unordered_map<const syntax::Local*, Variable> variables;
   /// Set by the first `return`.
   bool has_results = false;
@@ -64,6 +74,7 @@ struct Work {
   Span call_span{};
 
   // What the reporting walk finds.
+  bool has_several_targets = false;      ///< some assignment has several elements of tables for targets
   std::unique_ptr<Specialisation> owned; ///< until the program takes it
   Specialisation* spec = nullptr;
   struct Callee {
@@ -71,7 +82,8 @@ struct Work {
     Span call;
   };
   std::unordered_map<uint32_t, Callee> callees; ///< by id of the call expression
-  std::vector<const syntax::Local*> captures;   ///< as Specialisation::captures
+  std::set<Variable*> used;                     ///< of other homes, by this function itself
+  std::vector<Variable*> captures;              ///< of other homes, by it or its callees, as Specialisation::captures
   /// Of it and its callees.
   std::vector<Requirement> requires_assigned;
   /// Locals of enclosing functions that it assigns whenever it returns; of the top level all its variables.
@@ -79,19 +91,16 @@ struct Work {
   std::vector<const void*> assigns_always;
   unsigned derivative_order = 0; ///< how many gradients stand inside each other, in it and in what it calls
   bool never_returns = false;    ///< every path ends in error() or an endless loop
-  /// Locals of enclosing functions (not the top level) that it or its callees assign.
-  std::set<const syntax::Local*> outer_writes;
-  /// Statements that assign locals of the top level.
-  struct TopLevelWrite {
-    const syntax::Local* local;
-    Span place;
-  };
-  std::vector<TopLevelWrite> top_level_writes;
+  /// Variables and leaves of other homes that it or its callees assign.
+  std::set<Variable*> outer_writes;
 };
 
 struct WorkKey {
   const syntax::Function* function;
   Work* parent;
+  bool is_init;
+  Work* site;    ///< for functions whose results outlive the call: the one who calls
+  uint32_t call; ///< and the id of the call
   std::vector<Type> arguments;
   bool operator==(const WorkKey&) const = default;
 };
@@ -104,12 +113,18 @@ struct Context {
   Diagnostics& diagnostics;
   Program& program;
   Globals globals;
+  Work* top = nullptr; ///< the top level
 
   std::unordered_map<WorkKey, std::unique_ptr<Work>, WorkKeyHash> works;
   std::vector<Work*> in_order; ///< of being made: hash tables have no order of their own
   /// A reporting walk of each function, for those nested in it; null: not walked yet.
   std::vector<Work*> walked;
-  std::unordered_map<const syntax::Local*, uint32_t> slots; ///< of captured top-level locals
+  std::unordered_map<const Variable*, uint32_t> globals_of; ///< variables of the top level: index in Program::globals
+  /// Functions whose results are tables of their own, or functions that capture variables of theirs.
+  std::set<const syntax::Function*> makers;
+  /// Tables by the call and the syntax that makes them (and which one of several).
+  std::map<std::tuple<const Work*, const void*, unsigned>, Table*> tables;
+  uint64_t table_elements = 0;
   /// Locals that some declaration leaves without a value (or with too few).
   std::set<const syntax::Local*> unset_locals;
 
@@ -135,8 +150,24 @@ struct Context {
 
   Context(const syntax::Chunk& c, Diagnostics& d, Program& p);
 
-  /// The specialisation for these arguments, made where it is new; null where there are too many.
-  Work* find_or_make(const syntax::Function* function, Work* parent, std::vector<Type> arguments, Span place);
+  /// The specialisation, made where it is new; null where there are too many.
+  Work* find_or_make(WorkKey key, Span place);
+
+  /// In whose call the variable lives.
+  Work* home_of(const Variable& variable) const;
+  /// While shading, the top level's variables are constants.
+  bool is_frozen_for(const Work& work, const Variable& variable) const {
+    return !work.is_init && home_of(variable)->is_init;
+  }
+  /// Where a variable or leaf is to be found by a function, which uses it from now on (reporting walk).
+  Place place_for(Work& work, Variable& variable, std::string_view name);
+  /// The variable that a local is in a function or those around it; null where there is none.
+  Variable* find_variable(Work& work, const syntax::Local& local) const;
+
+  /// The table that this syntax makes in this call.
+  Table* table_of(Work& work, const void* syntax, unsigned which, Span span);
+  /// The table inside a field, made where it is new.
+  Table* inner_table(Table& outer, Table::Field& field, Span span);
 
   /// Walks the body if it was not walked in this round yet.
   void analyse(Work& work);
@@ -168,8 +199,8 @@ std::string signature(const Work& work);
 void check_assigned(Context& context, Work& work);
 /// At the end: the top level must have defined the entry point and assigned what it reads.
 void check_assigned_for_entry(Context& context, const Work& top, const Global& global, const Work& entry);
-/// Writes to the top level's locals (memory.cpp), once all bodies were walked.
-void check_memory(Context& context, const std::vector<Work*>& entries, const Work& top);
+/// Reports an assignment to what is frozen while shading (memory.cpp).
+void refuse_memory(Context& context, const Work& work, std::string_view name, Span declared, Span place);
 /// Order of evaluation and the sets of outer variables read and assigned (order.cpp).
 void check_order(Context& context, Work& work);
 

@@ -118,42 +118,19 @@ TypeList Walker::expression_list(std::span<Expr* const> exprs) {
   return list;
 }
 
-Type Walker::run_time_value(const Expr& expr) {
-  const Type type = expression(expr);
-  switch (type.kind) {
-  case Type::Kind::Function:
-  case Type::Kind::Library:
-    error(Code::NotAvailableYet, expr.span, {"functions as values are"});
-    return unknown_type();
-  case Type::Kind::String:
-    error(Code::NotAvailableYet, expr.span, {"strings as values are"});
-    return unknown_type();
-  default:
-    return type;
-  }
-}
-
 // ---- names ---------------------------------------------------------------------------------------------------------
 
-Work* Walker::lexical_owner(const Function* function) const {
-  Work* owner = &work_;
-  while (owner != nullptr && owner->function != function)
-    owner = owner->parent;
-  return owner;
-}
-
 Variable& Walker::variable_of(const Local& local) {
-  Work* owner = lexical_owner(local.function);
-  return (owner != nullptr ? owner : &work_)->variables[&local];
+  Variable* variable = context_.find_variable(work_, local);
+  return variable != nullptr ? *variable : work_.variables[&local];
 }
 
-uint32_t Walker::slot_of(const Local& local) {
-  const auto [found, is_new] =
-      context_.slots.try_emplace(&local, static_cast<uint32_t>(context_.program.globals.size()));
-  if (is_new)
-    context_.program.globals.push_back(
-        {std::string(local.name), variable_of(local).type.value, &local, GlobalSlot{}.parameter});
-  return found->second;
+void Walker::set_place(ExpressionFact& fact, Variable& variable, std::string_view name) {
+  if (!context_.report || !has_storage(fact.type)) return;
+  const Place place = context_.place_for(work_, variable, name);
+  fact.name = place.slot != nullptr ? NameKind::Local : NameKind::Global;
+  fact.slot = place.slot;
+  fact.index = place.global;
 }
 
 Type Walker::name(const NameExpr& expr) {
@@ -166,27 +143,12 @@ Type Walker::name(const NameExpr& expr) {
 }
 
 Type Walker::local_name(const NameExpr& expr) {
-  const Local& local = *expr.local;
+  Variable& variable = variable_of(*expr.local);
   ExpressionFact fact;
-  fact.type = variable_of(local).type;
-  switch (fact.type.kind) {
-  case Type::Kind::Function:
-    fact.name = NameKind::Function;
-    break;
-  case Type::Kind::Library:
-    fact.name = NameKind::Library;
-    break;
-  case Type::Kind::Value:
-    if (context_.report && is_slot(local)) {
-      fact.name = NameKind::Global;
-      fact.index = slot_of(local);
-    } else if (work_.spec != nullptr) {
-      work_.spec->locals[&local].type = fact.type;
-    }
-    break;
-  default:
-    break;
-  }
+  fact.type = variable.type;
+  if (fact.type.kind == Type::Kind::Function) fact.name = NameKind::Function;
+  if (fact.type.kind == Type::Kind::Library) fact.name = NameKind::Library;
+  set_place(fact, variable, expr.name);
   return record(expr, std::move(fact));
 }
 
@@ -196,18 +158,14 @@ Type Walker::global_name(const NameExpr& expr) {
     if (global->is_broken) return unknown_type();
     if (global->function != nullptr) {
       fact.name = NameKind::Function;
-      fact.type = function_type(global->function);
+      fact.type = function_type(global->function, context_.top);
       return record(expr, std::move(fact));
     }
-    fact.name = NameKind::Global;
     fact.type = global->variable.type;
-    if (context_.report && fact.type.is_value()) {
-      if (global->slot == ~0u) {
-        global->slot = static_cast<uint32_t>(context_.program.globals.size());
-        context_.program.globals.push_back({std::string(expr.name), fact.type.value, nullptr, GlobalSlot{}.parameter});
-      }
-      fact.index = global->slot;
-    }
+    global->variable.owner = context_.top;
+    if (fact.type.kind == Type::Kind::Function) fact.name = NameKind::Function;
+    if (fact.type.kind == Type::Kind::Library) fact.name = NameKind::Library;
+    set_place(fact, global->variable, expr.name);
     return record(expr, std::move(fact));
   }
   if (expr.name == "math" || is_library_function(expr.name)) {
@@ -256,6 +214,7 @@ Type Walker::index(const IndexExpr& expr) {
   if (object.kind == Type::Kind::Library && object.text == "math") return library_field(expr, object.text);
   if (is_vector(object)) return vector_component(expr, object);
   if (is_matrix(object)) return matrix_column(expr, object);
+  if (is_table(object)) return table_index(expr, object);
   if (!expr.is_dotted) expression(*expr.key);
   if (is_unknown(object)) return unknown_type();
   if (object.kind == Type::Kind::String) {
@@ -353,19 +312,9 @@ Type Walker::vector_component(const IndexExpr& expr, const Type& object) {
   return record(expr, std::move(fact));
 }
 
-Type Walker::table(const TableExpr& expr) {
-  if (table_depth_++ == 0) error(Code::NotAvailableYet, expr.span, {"tables are"});
-  for (const TableField& field : expr.fields) {
-    if (field.kind == FieldKind::Keyed) expression(*field.key);
-    values(*field.value);
-  }
-  --table_depth_;
-  return unknown_type();
-}
-
 Type Walker::function_expression(const Function& function) {
   if (function.is_vararg) error(Code::Varargs, function.vararg_span);
-  return record(function, function_type(&function));
+  return record(function, function_type(&function, &work_));
 }
 
 } // namespace moonshade::sema

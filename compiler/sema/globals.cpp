@@ -2,6 +2,7 @@
 // of the top level define anything.
 #include "compiler/sema/globals.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace moonshade::sema {
@@ -22,15 +23,38 @@ public:
   }
 
 private:
+  /// A branch that is open: clause `index` of an `if` (the last is `else`), or of a loop or function (null).
+  struct Branch {
+    const IfStat* stat;
+    size_t index;
+    bool operator==(const Branch&) const = default;
+  };
+  using Path = std::vector<Branch>;
+
+  /// Whether at most one of the two places is reached, as far as branches of `if`s tell, from `depth` on.
+  static bool exclude_each_other(const Path& a, const Path& b, size_t depth) {
+    for (size_t i = depth; i < std::min(a.size(), b.size()); ++i)
+      if (a[i] != b[i]) return a[i].stat != nullptr && a[i].stat == b[i].stat;
+    return false;
+  }
+
   void assign_local(const Local& local) {
     const auto declared = declared_in_.find(&local);
     if (declared == declared_in_.end()) return;
-    const bool is_first = assigned_.insert(&local).second;
-    if (is_first && declared->second == block_) {
+    std::vector<Path>& before = assigned_[&local];
+    if (before.empty() && declared->second.block == block_) {
       globals_.assigned_once.insert(&local);
     } else {
       globals_.assigned_once.erase(&local);
     }
+    const size_t depth = declared->second.depth;
+    bool in_branches = std::all_of(path_.begin() + static_cast<std::ptrdiff_t>(depth), path_.end(),
+                                   [](const Branch& branch) { return branch.stat != nullptr; });
+    for (const Path& other : before)
+      in_branches = in_branches && exclude_each_other(other, path_, depth);
+    if (before.empty() && in_branches) globals_.assigned_in_branches.insert(&local);
+    if (!in_branches) globals_.assigned_in_branches.erase(&local);
+    before.push_back(path_);
   }
 
   void define(const NameExpr& target, const Function* function, bool certain) {
@@ -56,8 +80,14 @@ private:
 
   void function(const Function& function) {
     ++function_depth_;
-    block(*function.body, false);
+    branch({nullptr, 0}, *function.body);
     --function_depth_;
+  }
+
+  void branch(Branch branch, const Block& body) {
+    path_.push_back(branch);
+    block(body, false);
+    path_.pop_back();
   }
 
   void expressions(std::span<Expr* const> exprs) {
@@ -119,35 +149,35 @@ private:
                       expressions(local.values);
                       if (!local.values.empty()) return;
                       for (const Local* each : local.locals)
-                        declared_in_[each] = block_;
+                        declared_in_[each] = {block_, path_.size()};
                     },
                     [&](const AssignStat& assign) { assignment(assign, certain); },
                     [&](const CallStat& call) { expression(call.call); },
                     [&](const DoStat& body) { block(*body.body, certain); },
                     [&](const WhileStat& loop) {
                       expression(loop.condition);
-                      block(*loop.body, false);
+                      branch({nullptr, 0}, *loop.body);
                     },
                     [&](const RepeatStat& loop) {
-                      block(*loop.body, false);
+                      branch({nullptr, 0}, *loop.body);
                       expression(loop.condition);
                     },
-                    [&](const IfStat& branch) {
-                      for (const IfClause& clause : branch.clauses) {
-                        expression(clause.condition);
-                        block(*clause.body, false);
+                    [&](const IfStat& stat) {
+                      for (size_t i = 0; i < stat.clauses.size(); ++i) {
+                        expression(stat.clauses[i].condition);
+                        branch({&stat, i}, *stat.clauses[i].body);
                       }
-                      if (branch.else_body != nullptr) block(*branch.else_body, false);
+                      if (stat.else_body != nullptr) branch({&stat, stat.clauses.size()}, *stat.else_body);
                     },
                     [&](const NumericForStat& loop) {
                       expression(loop.start);
                       expression(loop.limit);
                       expression(loop.step);
-                      block(*loop.body, false);
+                      branch({nullptr, 0}, *loop.body);
                     },
                     [&](const GenericForStat& loop) {
                       expressions(loop.values);
-                      block(*loop.body, false);
+                      branch({nullptr, 0}, *loop.body);
                     },
                     [&](const FunctionStat& definition) {
                       if (const auto* name = try_as<NameExpr>(definition.target)) {
@@ -173,8 +203,13 @@ private:
   Globals& globals_;
   unsigned function_depth_ = 0;
   const Block* block_ = nullptr;
-  std::unordered_map<const Local*, const Block*> declared_in_; ///< of those declared without a value
-  std::set<const Local*> assigned_;
+  Path path_;
+  struct Declaration {
+    const Block* block = nullptr;
+    size_t depth = 0; ///< of the path there
+  };
+  std::unordered_map<const Local*, Declaration> declared_in_; ///< of those declared without a value
+  std::unordered_map<const Local*, std::vector<Path>> assigned_;
   std::vector<std::string_view> used_;
 };
 

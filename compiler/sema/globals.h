@@ -12,18 +12,6 @@
 
 namespace moonshade::sema {
 
-/// The type of a variable as far as it is inferred, and what made it so.
-struct Variable {
-  Type type;
-  Type first_type; ///< of the first value given to it, and where
-  Span first{};
-  /// The first value that did not fit. Kept, for where the value depends on the variable itself the conflict is not met
-  /// again: by then the variable's type is the conflicting one.
-  Type conflict_type;
-  Span conflict{};
-  const syntax::Expr* integer_given = nullptr; ///< an integer given to it, for `mixed-number`
-};
-
 struct Global {
   std::string_view name;
   /// The function that it stands for; null for a variable.
@@ -33,7 +21,6 @@ struct Global {
   bool in_branch = false; ///< the first definition stands in a branch or a loop
   bool is_broken = false; ///< a function, but defined several times or in a branch: stands for nothing
   Variable variable;      ///< of a variable
-  uint32_t slot = ~0u;    ///< of a variable: index in Program::globals
 };
 
 struct Globals {
@@ -45,6 +32,9 @@ struct Globals {
   /// Locals declared without a value and assigned once, in the block of the declaration: such a one may stand for a
   /// function (`local f ... function f() end`), which then captures nothing that lives shorter than the name.
   std::set<const syntax::Local*> assigned_once;
+  /// Those that are assigned in branches of `if`s alone, of which at most one is taken: such a one may stand for a
+  /// table that is built in each.
+  std::set<const syntax::Local*> assigned_in_branches;
 
   Global* find(std::string_view name) {
     const auto found = by_name.find(name);

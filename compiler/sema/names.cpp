@@ -54,7 +54,7 @@ constexpr RefusedName kRefusedNames[] = {
     {"math.random", Code::RandomNumbers, ""},
     {"math.randomseed", Code::RandomNumbers, ""},
     {"require", Code::NotAvailableYet, "modules ('require') are"},
-    {"ipairs", Code::NotAvailableYet, "arrays ('ipairs') are"},
+    {"ipairs", Code::LibraryLeftOut, "it stands in 'for i, v in ipairs(array)' alone"},
     {"print", Code::NotAvailableYet, "'print' is"},
     {"texture", Code::NotAvailableYet, "images ('texture') are"},
 };

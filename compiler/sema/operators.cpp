@@ -86,6 +86,11 @@ Type Walker::length_operator(const UnaryExpr& expr, const Type& operand) {
     fact.integer_constant = static_cast<int64_t>(operand.text.size());
     return record(expr, std::move(fact));
   }
+  if (is_table(operand) && operand.table->kind == Table::Kind::Array) {
+    fact.form = OperatorForm::Constant;
+    fact.integer_constant = operand.table->length;
+    return record(expr, std::move(fact));
+  }
   if (operand.kind == Type::Kind::String) {
     error(Code::StringParameter, expr.operand->span);
   } else if (!is_unknown(operand)) {

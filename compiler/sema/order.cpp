@@ -3,6 +3,7 @@
 // are refused. Local functions that assign variables of their surroundings are rare, so most bodies are not even looked
 // at.
 #include "compiler/sema/context.h"
+#include "compiler/sema/walker.h"
 
 #include <algorithm>
 #include <map>
@@ -16,7 +17,11 @@ namespace {
 
 /// What evaluating an expression uses and assigns, and by which part of it.
 struct Effects {
-  std::map<const Local*, Span> uses, writes;
+  struct Use {
+    std::string_view name;
+    Span place;
+  };
+  std::map<const Variable*, Use> uses, writes;
 
   void add(const Effects& other) {
     uses.insert(other.uses.begin(), other.uses.end());
@@ -26,7 +31,7 @@ struct Effects {
 
 class OrderCheck {
 public:
-  OrderCheck(Context& context, const Work& work) : context_(context), work_(work) {}
+  OrderCheck(Context& context, Work& work) : context_(context), work_(work) {}
 
   void block(const Block& block) {
     for (const Stat* stat : block.stats)
@@ -47,13 +52,14 @@ private:
     return all;
   }
 
-  void conflict(const std::map<const Local*, Span>& uses, const std::map<const Local*, Span>& writes) {
-    for (const auto& [local, write] : writes) {
-      const auto use = uses.find(local);
+  void conflict(const std::map<const Variable*, Effects::Use>& uses,
+                const std::map<const Variable*, Effects::Use>& writes) {
+    for (const auto& [variable, write] : writes) {
+      const auto use = uses.find(variable);
       if (use == uses.end()) continue;
-      const std::string name(local->name);
-      context_.error(Code::OrderOfEvaluation, use->second, {name, "a call in the same statement may assign it"})
-          .note(Code::NoteAssignedByCall, write, {name});
+      const std::string name(use->second.name);
+      context_.error(Code::OrderOfEvaluation, use->second.place, {name, "a call in the same statement may assign it"})
+          .note(Code::NoteAssignedByCall, write.place, {name});
     }
   }
 
@@ -65,10 +71,10 @@ private:
     Effects effects = siblings(parts);
     const auto callee = work_.callees.find(expr.id);
     if (callee == work_.callees.end()) return effects;
-    for (const Local* local : callee->second.work->captures)
-      effects.uses.insert({local, expr.span});
-    for (const Local* local : callee->second.work->outer_writes)
-      effects.writes.insert({local, expr.span});
+    for (const Variable* variable : callee->second.work->captures)
+      effects.uses.insert({variable, {variable->slot->name, expr.span}});
+    for (const Variable* variable : callee->second.work->outer_writes)
+      effects.writes.insert({variable, {variable->slot->name, expr.span}});
     return effects;
   }
 
@@ -76,10 +82,23 @@ private:
     return visit(expr, Overloaded{
                            [&](const NameExpr& name) {
                              Effects effects;
-                             if (name.local != nullptr) effects.uses.insert({name.local, name.span});
+                             if (name.local != nullptr)
+                               if (const Variable* variable = context_.find_variable(work_, *name.local))
+                                 effects.uses.insert({variable, {name.name, name.span}});
                              return effects;
                            },
-                           [&](const IndexExpr& index) { return siblings({index.object, index.key}); },
+                           [&](const IndexExpr& index) {
+                             Effects effects = siblings({index.object, index.key});
+                             if (const Table::Field* field = field_of(index))
+                               effects.uses.insert({&field->variable, {spoken_name(*index.object), index.span}});
+                             return effects;
+                           },
+                           [&](const TableExpr& table) {
+                             std::vector<const Expr*> parts;
+                             for (const TableField& field : table.fields)
+                               parts.push_back(field.value);
+                             return siblings(parts);
+                           },
                            [&](const CallExpr& node) { return call(node); },
                            [&](const MethodCallExpr& node) {
                              std::vector<const Expr*> parts = {node.object};
@@ -99,10 +118,52 @@ private:
                        });
   }
 
+  const Table::Field* field_of(const IndexExpr& index) const {
+    const auto fact = work_.spec->expressions.find(index.id);
+    return fact == work_.spec->expressions.end() ? nullptr : fact->second.field;
+  }
+
+  static std::string_view spoken_name(const Expr& expr) {
+    const Expr* at = &strip_parentheses(expr);
+    while (const auto* index = try_as<IndexExpr>(at))
+      at = &strip_parentheses(*index->object);
+    const auto* name = try_as<NameExpr>(at);
+    return name != nullptr ? name->name : "this table";
+  }
+
+  /// Objects, indices and values come first, in an order that Lua leaves open; then all is assigned, in such an order.
+  void assign(const AssignStat& stat) {
+    std::vector<const Expr*> parts(stat.values.begin(), stat.values.end());
+    for (size_t i = 0; i < stat.targets.size(); ++i) {
+      const auto* index = try_as<IndexExpr>(stat.targets[i]);
+      if (index == nullptr) continue;
+      parts.push_back(index->object);
+      parts.push_back(index->key);
+      for (size_t j = 0; j < i; ++j)
+        if (const auto* other = try_as<IndexExpr>(stat.targets[j]); other != nullptr && may_be_one(*index, *other))
+          context_.error(Code::SameTargetTwice, index->span, {std::string(spoken_name(*index->object)) + "[...]"});
+    }
+    siblings(parts);
+  }
+
+  bool may_be_one(const IndexExpr& a, const IndexExpr& b) const {
+    const Table::Field* field = field_of(a);
+    if (field == nullptr || field != field_of(b)) return false;
+    const auto *left = constant(*a.key), *right = constant(*b.key);
+    if (left != nullptr && right != nullptr && left->value != right->value) return false;
+    // Elements of different tables in an array of tables: a[1].x, a[2].x.
+    const auto* outer_a = try_as<IndexExpr>(&strip_parentheses(*a.object));
+    const auto* outer_b = try_as<IndexExpr>(&strip_parentheses(*b.object));
+    return outer_a == nullptr || outer_b == nullptr || may_be_one(*outer_a, *outer_b) ||
+           field_of(*outer_a) != field_of(*outer_b);
+  }
+
+  static const IntegerExpr* constant(const Expr& key) { return try_as<IntegerExpr>(&strip_parentheses(key)); }
+
   void statement(const Stat& stat) {
     visit(stat, Overloaded{
                     [&](const LocalStat& node) { list(node.values); },
-                    [&](const AssignStat& node) { list(node.values); },
+                    [&](const AssignStat& node) { assign(node); },
                     [&](const CallStat& node) { expression(*node.call); },
                     [&](const DoStat& node) { block(*node.body); },
                     [&](const WhileStat& node) {
@@ -124,21 +185,25 @@ private:
                       siblings({node.start, node.limit, node.step});
                       block(*node.body);
                     },
-                    [&](const GenericForStat& node) { block(*node.body); },
+                    [&](const GenericForStat& node) {
+                      list(node.values);
+                      block(*node.body);
+                    },
                     [&](const ReturnStat& node) { list(node.values); },
                     [](const auto&) {},
                 });
   }
 
   Context& context_;
-  const Work& work_;
+  Work& work_;
 };
 
 } // namespace
 
 void check_order(Context& context, Work& work) {
-  const bool any =
-      std::ranges::any_of(work.callees, [](const auto& callee) { return !callee.second.work->outer_writes.empty(); });
+  const bool any = work.has_several_targets || std::ranges::any_of(work.callees, [](const auto& callee) {
+                     return !callee.second.work->outer_writes.empty();
+                   });
   if (any) OrderCheck(context, work).block(*work.function->body);
 }
 

@@ -5,8 +5,13 @@
 // specialisations, so facts are kept per specialisation, by the node's id.
 //
 // The top level of the file is specialisation 0 ("the top level", `function` is the chunk's main function): it becomes
-// the module's init function. A top-level local (or a global variable) whose value functions read becomes a Global
-// slot. Locals of a function that local functions read or assign are passed to their calls by reference (captures).
+// the module's init function. A function that is called while the top level runs has specialisations of its own for
+// that; what shading reads of the top level's variables, frozen by then, becomes a Global.
+//
+// What has storage at run time is a Slot: a variable, or a leaf of a table. It belongs to one specialisation, its home,
+// in whose calls it lives; functions called from there that use it get it by reference (captures). A variable or table
+// that outlives the call that made it (a result, or captured by a function that is a result) lives in the caller: the
+// function is then specialised for that very call, so that each call has tables of its own.
 #pragma once
 
 #include "compiler/base/diagnostics.h"
@@ -16,6 +21,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <set>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -23,6 +29,8 @@
 namespace moonshade::sema {
 
 struct Specialisation;
+struct Table;
+struct Work; ///< of inference; outside of sema it only tells functions of different calls apart
 
 /// A static type. `Function` is known at compile time: `function` says which syntax it stands for.
 struct Type {
@@ -31,8 +39,9 @@ struct Type {
     None,     ///< no value: the result of a function that returns nothing
     Value,    ///< `value`
     String,   ///< a compile-time constant, `text`; of a parameter (`is_parameter`) the parameter's name
-    Function, ///< a function of the shader, `function`
+    Function, ///< a function of the shader, `function`, made in the call `frame`
     Library,  ///< a function or table of the library, `text` its name ("noise", "math.sin", "math"); no storage
+    Table,    ///< `table`; at run time the number of the element that it is, where it stands in an array
   };
   Kind kind = Kind::Unknown;
   ValueType value = ValueType::Boolean;
@@ -43,17 +52,98 @@ struct Type {
   bool mixed = false;
   /// A string whose text is a parameter of the shader, so not known while compiling.
   bool is_parameter = false;
+  Work* frame = nullptr;
+  Table* table = nullptr;
 
-  static Type of(ValueType value) { return {Kind::Value, value, nullptr, {}, false, false}; }
+  static Type of(ValueType value) {
+    Type type;
+    type.kind = Kind::Value;
+    type.value = value;
+    return type;
+  }
   bool is_value() const { return kind == Kind::Value; }
   bool is(ValueType other) const { return kind == Kind::Value && value == other; }
   bool operator==(const Type&) const = default;
 };
 
+/// Storage at run time: `count` values of one type.
+struct Slot {
+  uint32_t id = 0; ///< in order of their making
+  std::string name;
+  ValueType type = ValueType::Number;
+  uint32_t count = 1;
+};
+
+/// The type of a variable as far as it is inferred, and what made it so.
+struct Variable {
+  Type type;
+  Type first_type; ///< of the first value given to it, and where
+  Span first{};
+  /// The first value that did not fit. Kept, for where the value depends on the variable itself the conflict is not met
+  /// again: by then the variable's type is the conflicting one.
+  Type conflict_type;
+  Span conflict{};
+  const syntax::Expr* integer_given = nullptr; ///< an integer given to it, for `mixed-number`
+  Work* owner = nullptr;                       ///< whose call it belongs to; of a table's leaf the table knows
+  Table* table = nullptr;                      ///< of which it is a leaf
+  bool is_captured = false;                    ///< local functions use it
+  uint32_t parameter = ~0u;                    ///< the shader's parameter whose value it is, where it is just that
+  Slot* slot = nullptr;                        ///< where it is used at run time
+};
+
+/// A table that the compiler knows: what all the tables have in common that one constructor makes (in an array of
+/// tables: that all its elements are). Its values stand in the slots of its leaves, one for each element of the arrays
+/// around it.
+struct Table {
+  enum class Kind : uint8_t { Unknown, Array, Record };
+  struct Field {
+    std::string_view name; ///< empty for an array's elements
+    Span span;
+    Variable variable;      ///< a leaf, or a reference (its type a table, or a function)
+    Table* inner = nullptr; ///< a table that stands in this slot: part of this one
+  };
+  Kind kind = Kind::Unknown;
+  uint32_t length = 0;              ///< of an array
+  std::vector<Field*> fields;       ///< of an array one, for all its elements
+  Table* outer = nullptr;           ///< the table of which it is part
+  Work* maker = nullptr;            ///< in whose call it is made
+  Work* owner = nullptr;            ///< in whose call it lives (of the outermost)
+  Span span{};                      ///< its constructor
+  const void* syntax = nullptr;     ///< what makes it, where several tables meet
+  const Field* stands_in = nullptr; ///< of a record that refers to it
+  bool is_mutated = false;          ///< something is assigned to a slot after its construction
+  std::vector<std::unique_ptr<Field>> storage;
+
+  const Table* outermost() const {
+    const Table* at = this;
+    while (at->outer != nullptr)
+      at = at->outer;
+    return at;
+  }
+  /// Whether there are several of it, told apart at run time by a number from 0.
+  bool is_element() const {
+    for (const Table* at = outer; at != nullptr; at = at->outer)
+      if (at->kind == Kind::Array) return true;
+    return false;
+  }
+  /// How many of it there are.
+  uint64_t instances() const {
+    uint64_t count = 1;
+    for (const Table* at = outer; at != nullptr; at = at->outer)
+      if (at->kind == Kind::Array) count *= at->length;
+    return count;
+  }
+  Field* find(std::string_view name) const {
+    for (Field* field : fields)
+      if (field->name == name) return field;
+    return nullptr;
+  }
+};
+
 /// What a name stands for.
 enum class NameKind : uint8_t {
-  Local,    ///< a variable of this function, or a captured one of an enclosing function (not the top level's)
-  Global,   ///< slot `index` of Program::globals (inside the top level too)
+  Local,    ///< the variable `slot`, of this function or captured
+  Global,   ///< Program::globals[index]: a variable of the top level, while shading
   Function, ///< a function of the shader, known at compile time; no value at run time
   Library,  ///< a function or table of the library; no value at run time
   Constant, ///< a number or integer constant of the library: math.pi, math.maxinteger
@@ -73,6 +163,13 @@ enum class CallKind : uint8_t {
   Error,          ///< error(message)
   Gradient,       ///< gradient(f, p): `callee` or, where that is null, `library`, of one parameter, by it
   Fwidth,         ///< fwidth(f, p, fw): the length of that, times the magnitude of fw
+  Ipairs,         ///< ipairs(t), of a `for` alone
+};
+
+/// Where a slot is found at run time.
+struct Place {
+  const Slot* slot = nullptr; ///< own or captured
+  uint32_t global = ~0u;      ///< else Program::globals[global]
 };
 
 /// How an operator expression is to be computed.
@@ -96,7 +193,10 @@ struct ExpressionFact {
   Type type;                 ///< of its (first) value
   std::vector<Type> results; ///< of a call: all results
   NameKind name = NameKind::Local;
-  uint32_t index = 0;           ///< Global slot; parameter (also of OperatorForm::Parameter)
+  uint32_t index = 0;         ///< Global; parameter (also of OperatorForm::Parameter)
+  const Slot* slot = nullptr; ///< NameKind::Local
+  /// `t.x`, `t[i]`: the field of the table that is the object's type. Of ipairs(t) its element.
+  const Table::Field* field = nullptr;
   double constant = 0;          ///< NameKind::Constant of type number
   int64_t integer_constant = 0; ///< NameKind::Constant of type integer
   CallKind call = CallKind::Specialisation;
@@ -107,10 +207,10 @@ struct ExpressionFact {
   std::vector<uint8_t> components; ///< component access and swizzles (`v.x`, `v.zyx`, `v[1]`): indices from 0
 };
 
-/// A variable that a specialisation owns.
+/// A local variable of a function.
 struct LocalFact {
-  Type type;                     ///< Value: a variable at run time. Function, Library, String, Unknown: no storage
-  bool captured_by_call = false; ///< a local function reads or assigns it
+  Type type;                  ///< Value: a variable at run time; Table: one where it is an element. Else no storage
+  const Slot* slot = nullptr; ///< null: no storage
 };
 
 struct Specialisation {
@@ -122,20 +222,23 @@ struct Specialisation {
   /// have more arguments than these; the rest is evaluated and dropped.
   std::vector<Type> parameters;
   std::vector<Type> results; ///< converted to by every return
-  /// Variables of enclosing functions (not the top level) that this function or those it calls use, by reference, in
-  /// the order of the IR function's captures. A caller passes its own variable, or its own capture, of the same local.
-  std::vector<const syntax::Local*> captures;
+  /// Slots of other homes that this function or those it calls use, by reference, in the order of the IR function's
+  /// captures. A caller passes its own slot, or its own capture of it.
+  std::vector<const Slot*> captures;
   std::unordered_map<uint32_t, ExpressionFact> expressions;   ///< by Expr::id
-  std::unordered_map<const syntax::Local*, LocalFact> locals; ///< own and captured
-  /// Top-level locals that have a Global slot (the top level stores them there, functions load them).
+  std::unordered_map<const syntax::Local*, LocalFact> locals; ///< its own
+  /// Where the leaves of the tables are that it uses.
+  std::unordered_map<const Table::Field*, Place> leaves;
+  std::set<const Table*> placed; ///< tables all of whose leaves are there
 };
 
-/// A top-level variable that functions read: becomes an ir::Global.
+/// A top-level variable that shading reads: becomes an ir::Global.
 struct GlobalSlot {
   std::string name;
   ValueType type;
-  const syntax::Local* local = nullptr; ///< null for a global variable
-  uint32_t parameter = ~0u;             ///< the shader's parameter whose value this is, where it is just that
+  uint32_t count = 1;
+  const Slot* slot = nullptr; ///< of the top level: copied when it ends
+  uint32_t parameter = ~0u;   ///< the shader's parameter whose value this is, where it is just that
 };
 
 struct EntryPoint {
@@ -148,6 +251,8 @@ struct Program {
   ShaderInfo info;
   std::vector<std::unique_ptr<Specialisation>> specialisations;
   std::vector<GlobalSlot> globals;
+  std::vector<std::unique_ptr<Slot>> slots;
+  std::vector<std::unique_ptr<Table>> tables;
   std::vector<EntryPoint> entries;
 };
 

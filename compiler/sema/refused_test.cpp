@@ -49,7 +49,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"local function f(x) if x < 0 then return $f(x + 1) end return f(x - 1) end", {"recursion"}},
         Refusal{"local function f($...) return 1 end", {"varargs"}}, Refusal{"local x = $...", {"varargs"}},
         Refusal{"local n = $select(1, 2)", {"varargs"}},
-        Refusal{"$setmetatable(${}, 1)", {"metatables", "not-available-yet"}},
+        Refusal{"$setmetatable(${}, 1)", {"metatables", "empty-table"}},
         Refusal{"local v = vec3(1)\nfunction $v:f() return 1 end", {"method-definition"}},
         Refusal{"function height(p) $coroutine.yield(1) return 1 end", {"coroutines"}},
         Refusal{"function height(p) $pcall(height) return 1 end", {"protected-calls"}},
@@ -59,7 +59,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"local t = $os.time()", {"library-left-out"}}, Refusal{"$io.write('x')", {"library-left-out"}},
         Refusal{"local t = $type(1)", {"library-left-out"}}, Refusal{"for k, v in $pairs(t) do end", {"pairs"}},
         Refusal{"for k in $next, x do end", {"pairs"}}, Refusal{"for k in $f() do end", {"generic-for"}},
-        Refusal{"for i, v in $ipairs(t) do local x = $nil end", {"not-available-yet", "nil-value"}},
+        Refusal{"for i, v in ipairs($t) do local x = $nil end", {"unknown-name", "nil-value"}},
         Refusal{"local $x <close> = 1", {"close-variable"}}, Refusal{"::top:: local x = 1\n$goto top", {"goto-form"}},
         Refusal{
             "function height(p)\n  local x = 1\n  if p.x > 0 then $goto skip end\n  x = 2\n  ::skip::\n  x = x + 1\n"
@@ -74,21 +74,65 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"local count = 0\nfunction height(p)\n  $count = count + 1\n  return count\nend",
                 {"shader-has-no-memory"}},
         Refusal{"local count = 0\nlocal function add() $count = count + 1 end\nadd()\n"
-                "function height(p) return count end",
-                {"not-available-yet"}},
+                "function height(p) add() return count end",
+                {"shader-has-no-memory"}},
         Refusal{"function height(p) $x = 1 return x + y() end\nfunction y() return 1 end", {"global-assignment"}},
         Refusal{"$math.pi = 3", {"library-assignment"}}, Refusal{"$function math.f() end", {"library-assignment"}}));
 
 INSTANTIATE_TEST_SUITE_P(
     NotYet, RefusalTest,
-    Values(Refusal{"local t = ${1, { 2, $nil } }", {"not-available-yet", "nil-value"}},
-           Refusal{"local m = $require 'm'", {"not-available-yet"}}, Refusal{"$print(1)", {"not-available-yet"}},
+    Values(Refusal{"local m = $require 'm'", {"not-available-yet"}}, Refusal{"$print(1)", {"not-available-yet"}},
            Refusal{"function color(p) return $texture('a.png', p.xy) end", {"not-available-yet"}},
-           Refusal{"local function f(g) return g(1) end\nfunction height(p) return f($sin) end", {"not-available-yet"}},
-           Refusal{"local function f() return $sin end\nfunction height(p) local s = f() return 1 end",
-                   {"not-available-yet"}},
            Refusal{"function height(p) local i = 1 return p[$i] end", {"not-available-yet"}},
            Refusal{"function height(p) return math.max(1, $p) end", {"argument-type"}}));
+
+INSTANTIATE_TEST_SUITE_P(
+    Tables, RefusalTest,
+    Values(
+        Refusal{"local t = { 1, ${ 2, $nil } }", {"type-conflict", "nil-value"}},
+        Refusal{"local t = ${}", {"empty-table"}}, Refusal{"local t = { $[1] = 2 }", {"keyed-field"}},
+        Refusal{"local t = { 1, $x = 2 }", {"mixed-table"}}, Refusal{"local t = { x = 1, $x = 2 }", {"field-twice"}},
+        Refusal{"local t = { 1, $vec3(1) }", {"type-conflict"}}, Refusal{"local t = { $sin, $cos }", {"array-element", "array-element"}},
+        Refusal{"local t = { $'a' }", {"array-element"}},
+        Refusal{"local t = { { 1, 2 }, ${ 1 } }", {"table-shapes"}},
+        Refusal{"local t = { { x = 1 }, ${ y = 1 } }", {"table-shapes"}},
+        Refusal{"local t = { 1 }\nlocal x = t.$x", {"unknown-field"}},
+        Refusal{"local t = { red = 1 }\nlocal x = t.$rad", {"unknown-field"}},
+        Refusal{"local t = { red = 1 }\nlocal x = t[$1]", {"record-index"}},
+        Refusal{"local t = { 1 }\nlocal x = t[$true]", {"index-type"}},
+        Refusal{"local t = { x = { 1 } }\n$t.x = { 2 }", {"table-slot"}},
+        Refusal{"local t = { f = sin }\n$t.f = cos", {"table-slot"}},
+        Refusal{"local t = { 1 }\n$t = { 2 }", {"table-not-known"}},
+        Refusal{"local t = { 1 }\nt = $2", {"type-conflict"}},
+        Refusal{"function height(p)\n  local a, b = { 1 }, { 2 }\n  local c = $p.x > 0 and a or b\n  return c[1]\nend",
+                {"table-not-known"}},
+        Refusal{"function height(p)\n  local a, b = { 1 }, { 2 }\n  local c\n  if p.x > 0 then c = $a else c = $b end\n"
+                "  return c[1]\nend",
+                {"table-not-known", "table-not-known"}},
+        Refusal{"local function f(x)\n  local a, b = { 1 }, { 2 }\n  if x > 0 then return $a end\n  return $b\nend\n"
+                "function height(p) return f(p.x)[1] end",
+                {"table-not-known", "table-not-known"}},
+        Refusal{"local a = { 1 }\nlocal m, n = { $a }, { x = a }\nm[1][1] = 2", {"table-twice"}},
+        Refusal{"local a = { 1 }\nlocal m, n = { x = a }, { x = $a }", {"table-twice"}},
+        Refusal{"local t = { 1, 2 }\nfunction height(p)\n  $t[1] = p.x\n  return t[1]\nend", {"shader-has-no-memory"}},
+        Refusal{"local t = { x = { 1, 2 } }\nlocal u = t.x\nlocal function set(a) $a[1] = 2 end\n"
+                "function height(p)\n  set(u)\n  return t.x[1]\nend",
+                {"shader-has-no-memory"}},
+        Refusal{"local function counter()\n  local n = 0\n  return function() $n = n + 1 return n end\nend\n"
+                "local count = counter()\nfunction height(p) return count() end",
+                {"shader-has-no-memory"}},
+        Refusal{"function height(p)\n  local a = { 1, 2 }\n  local i, j = math.floor(p.x), math.floor(p.y)\n"
+                "  a[i], $a[j] = 1, 2\n  return a[1]\nend",
+                {"order-of-evaluation"}},
+        Refusal{"function height(p)\n  local a = { 1, 2 }\n  local function set() a[1] = 5 return 1 end\n"
+                "  return $a[1] + set()\nend",
+                {"order-of-evaluation"}},
+        Refusal{"function height(p)\n  for i, v in ipairs($p) do end\n  return 1\nend", {"ipairs-argument"}},
+        Refusal{"function height(p)\n  local f = $ipairs\n  return 1\nend", {"library-left-out"}},
+        Refusal{"function color(p) return $sin end", {"entry-result"}},
+        Refusal{"function f(p) return ${ 1 } end", {"entry-result"}},
+        Refusal{"local function f(x) if x > 0 then return sin end return $cos end\nfunction height(p) return f(p.x)(1) end",
+                {"function-not-known"}}));
 
 INSTANTIATE_TEST_SUITE_P(
     Names, RefusalTest,

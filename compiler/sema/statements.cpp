@@ -68,7 +68,7 @@ void Walker::statement(const Stat& stat) {
                   [&](const FunctionStat& node) { define_function(node); },
                   [&](const LocalFunctionStat& node) {
                     if (node.function->is_vararg) error(Code::Varargs, node.function->vararg_span);
-                    declare(*node.local, function_type(node.function), node.local->span, nullptr);
+                    declare(*node.local, function_type(node.function, &work_), node.local->span, nullptr);
                   },
                   [&](const ReturnStat& node) { return_values(node); },
                   [&](const GotoStat& node) { check_goto(node); },
@@ -80,6 +80,13 @@ void Walker::statement(const Stat& stat) {
 // ---- variables -----------------------------------------------------------------------------------------------------
 
 void Walker::give(Variable& variable, const Type& type, Span place, const Expr* given, std::string_view name) {
+  if (is_table(type) && (is_unknown(variable.type) || is_table(variable.type))) {
+    // A name is bound to a table once; which one it is may become clearer from round to round.
+    if (variable.type != type) context_.changed = true;
+    variable.type = variable.first_type = type;
+    variable.first = place;
+    return;
+  }
   if (type.is(ValueType::Integer) && variable.integer_given == nullptr) variable.integer_given = given;
   if (is_unknown(variable.first_type) && !is_unknown(type)) {
     variable.first_type = type;
@@ -104,12 +111,10 @@ void Walker::give(Variable& variable, const Type& type, Span place, const Expr* 
 }
 
 void Walker::declare(const Local& local, const Type& type, Span given_at, const Expr* given) {
-  Variable& variable = work_.variables[&local];
+  Variable& variable = variable_of(local);
   trace_parameter(&local, given);
   give(variable, type, given_at, given, local.name);
-  if (!context_.report || work_.spec == nullptr) return;
-  work_.spec->locals[&local].type = variable.type;
-  if (is_slot(local) && variable.type.is_value()) slot_of(local);
+  if (context_.report && has_storage(variable.type)) context_.place_for(work_, variable, local.name);
 }
 
 void Walker::local(const LocalStat& stat) {
@@ -129,21 +134,24 @@ void Walker::local(const LocalStat& stat) {
   }
   // A captured constant that is just a parameter needs no code at the top level.
   if (!context_.report || stat.locals.size() != 1 || stat.values.size() != 1 || stat.locals[0]->is_assigned) return;
-  const auto slot = context_.slots.find(stat.locals[0]);
-  const auto fact = work_.spec->expressions.find(strip_parentheses(*stat.values[0]).id);
-  if (slot != context_.slots.end() && fact != work_.spec->expressions.end() &&
-      strip_parentheses(*stat.values[0]).kind == ExprKind::Call && fact->second.call == CallKind::Parameter &&
-      fact->second.type.is_value())
-    context_.program.globals[slot->second].parameter = fact->second.index;
+  const Expr& value = strip_parentheses(*stat.values[0]);
+  const auto fact = work_.spec->expressions.find(value.id);
+  if (fact != work_.spec->expressions.end() && value.kind == ExprKind::Call &&
+      fact->second.call == CallKind::Parameter && fact->second.type.is_value())
+    variable_of(*stat.locals[0]).parameter = fact->second.index;
 }
 
 void Walker::assign(const AssignStat& stat) {
   // A function given to a global at the top level is a definition of it.
+  work_.has_several_targets = work_.has_several_targets || stat.targets.size() > 1;
   const TypeList list = expression_list(stat.values);
   for (size_t i = 0; i < stat.targets.size(); ++i) {
     const Expr& target = *stat.targets[i];
     if (const auto* indexed = try_as<IndexExpr>(&target)) {
-      assign_index(stat, *indexed);
+      const Type type = list.at(i);
+      if (type.kind == Type::Kind::None) error(Code::MissingValue, target.span, {"this"});
+      assign_index(stat, *indexed, type.kind == Type::Kind::None ? unknown_type() : type,
+                   *stat.values[std::min(i, stat.values.size() - 1)]);
       continue;
     }
     const auto* name = try_as<NameExpr>(&target);
@@ -167,8 +175,13 @@ void Walker::assign_name(const AssignStat& stat, const NameExpr& target, const T
   const std::string text(target.name);
   if (target.local != nullptr) {
     const Local& local = *target.local;
-    if (local.function == context_.chunk.main && !at_top_level()) {
-      if (context_.report) work_.top_level_writes.push_back({&local, stat.span});
+    Variable& variable = variable_of(local);
+    if (context_.is_frozen_for(work_, variable)) {
+      refuse_memory(context_, work_, text, local.span, stat.span);
+      return;
+    }
+    if (is_table(type) || is_table(variable.type)) {
+      bind_table(stat, target, type, given);
       return;
     }
     const bool is_declaration = context_.globals.assigned_once.contains(&local);
@@ -177,9 +190,9 @@ void Walker::assign_name(const AssignStat& stat, const NameExpr& target, const T
       return;
     }
     trace_parameter(&local, &given);
-    give(variable_of(local), type, given.span, &given, local.name);
+    give(variable, type, given.span, &given, local.name);
     local_name(target);
-    if (context_.report && local.function != work_.function) work_.outer_writes.insert(&local);
+    if (context_.report && context_.home_of(variable) != &work_) work_.outer_writes.insert(&variable);
     return;
   }
   if (target.environment != nullptr || target.name == "_ENV") {
@@ -198,9 +211,41 @@ void Walker::assign_name(const AssignStat& stat, const NameExpr& target, const T
     refuse_function(stat.span, text, &given);
     return;
   }
+  if (is_table(global->variable.type) && global->definition != target.span) {
+    error(Code::TableRebound, stat.span, {text});
+    return;
+  }
   trace_parameter(global, &given);
   give(global->variable, type, given.span, &given, target.name);
   global_name(target);
+}
+
+/// `local t` without a value, and the table in the same block or in each branch of an `if`.
+void Walker::bind_table(const AssignStat& stat, const NameExpr& target, const Type& type, const Expr& given) {
+  const Local& local = *target.local;
+  Variable& variable = variable_of(local);
+  if (is_unknown(type)) return;
+  if (!is_table(type) || (!is_table(variable.type) && !is_unknown(variable.type))) {
+    refuse_conflict(context_, work_, variable, target.name, type, given.span);
+    return;
+  }
+  trace_parameter(&local, &given);
+  if (context_.globals.assigned_once.contains(&local) && work_.function == local.function) {
+    give(variable, type, given.span, &given, local.name);
+  } else if (context_.globals.assigned_in_branches.contains(&local) && work_.function == local.function) {
+    const Type before = is_table(variable.type) ? variable.type : type;
+    give(variable, merge_tables(before, type, &local, 1, given, given.span), given.span, &given, local.name);
+  } else {
+    error(Code::TableRebound, stat.span, {std::string(target.name)});
+    return;
+  }
+  local_name(target);
+}
+
+/// Two `return`s with tables: each is fresh, or they give the same one.
+Type Walker::merge_results(const ReturnStat& stat, size_t index, const Type& type) {
+  const Expr& value = *stat.values[std::min(index, stat.values.size() - 1)];
+  return merge_tables(work_.results[index], type, work_.function, static_cast<unsigned>(index + 2), value, value.span);
 }
 
 namespace {
@@ -226,8 +271,12 @@ std::string component_proposal(const Expr& object, const Type& type, std::string
 
 } // namespace
 
-void Walker::assign_index(const AssignStat& stat, const IndexExpr& target) {
+void Walker::assign_index(const AssignStat& stat, const IndexExpr& target, const Type& type, const Expr& given) {
   const Type object = expression(*target.object);
+  if (is_table(object)) {
+    assign_element(target, object, type, given, stat.span);
+    return;
+  }
   if (!target.is_dotted) expression(*target.key);
   if (is_unknown(object)) return;
   if (is_vector(object)) {
@@ -257,6 +306,8 @@ void Walker::define_function(const FunctionStat& stat) {
       const Type object = expression(*target->object);
       if (object.kind == Type::Kind::Library) {
         error(Code::LibraryAssignment, stat.span);
+      } else if (is_table(object)) {
+        assign_element(*target, object, function_type(stat.function, &work_), *stat.function, stat.span);
       } else if (!is_unknown(object)) {
         type_error(Code::NoFields, target->object->span, {describe(object)});
       }
@@ -266,10 +317,10 @@ void Walker::define_function(const FunctionStat& stat) {
   if (stat.function->is_vararg) error(Code::Varargs, stat.function->vararg_span);
   const std::string text(name->name);
   if (name->local != nullptr) {
-    if (name->local->function == context_.chunk.main && !at_top_level()) {
-      if (context_.report) work_.top_level_writes.push_back({name->local, stat.span});
+    if (context_.is_frozen_for(work_, variable_of(*name->local))) {
+      refuse_memory(context_, work_, text, name->local->span, stat.span);
     } else if (context_.globals.assigned_once.contains(name->local)) {
-      give(variable_of(*name->local), function_type(stat.function), name->span, nullptr, text);
+      give(variable_of(*name->local), function_type(stat.function, &work_), name->span, nullptr, text);
     } else {
       refuse_function(stat.span, text, nullptr);
     }
@@ -328,12 +379,52 @@ void Walker::numeric_for(const NumericForStat& stat) {
   --loop_depth_;
 }
 
+/// The array of `ipairs(array)`; null for any other list of values.
+const CallExpr* Walker::ipairs_call(const GenericForStat& stat) const {
+  const auto* call = stat.values.size() == 1 ? try_as<CallExpr>(stat.values[0]) : nullptr;
+  const auto* name = call != nullptr ? try_as<NameExpr>(call->callee) : nullptr;
+  const bool is_library = name != nullptr && name->is_global() && name->environment == nullptr &&
+                          context_.globals.by_name.find(name->name) == context_.globals.by_name.end();
+  return is_library && name->name == "ipairs" ? call : nullptr;
+}
+
 void Walker::generic_for(const GenericForStat& stat) {
-  // `ipairs(...)` and `pairs(...)` are refused by name; anything else as such.
+  Type element;
+  if (const CallExpr* call = ipairs_call(stat)) {
+    const TypeList list = arguments(call->args);
+    const Type array = list.at(0);
+    if (list.types.size() == 1 && is_table(array) && array.table->kind == Table::Kind::Array) {
+      const Table::Field* field = array.table->fields.empty() ? nullptr : array.table->fields[0];
+      ExpressionFact fact;
+      fact.type = array;
+      fact.call = CallKind::Ipairs;
+      fact.field = field;
+      if (field != nullptr) element = field->inner != nullptr ? table_type(field->inner) : field->variable.type;
+      if (context_.report && work_.spec != nullptr) place_leaves(*array.table);
+      record(*call, std::move(fact));
+    } else if (!list.open && !is_unknown(array)) {
+      type_error(Code::IpairsArgument, call->args.empty() ? call->span : call->args[0]->span,
+                 {list.types.size() == 1 ? describe(array) : std::to_string(list.types.size()) + " values"});
+    }
+  } else {
+    refuse_generic_for(stat);
+  }
+  ++loop_depth_;
+  for (size_t i = 0; i < stat.variables.size(); ++i) {
+    const Local& variable = *stat.variables[i];
+    if (i > 1) context_.unset_locals.insert(&variable); // ipairs gives two values
+    declare(variable, i == 0 ? integer_type() : i == 1 ? element : unknown_type(), variable.span, nullptr);
+  }
+  block(*stat.body);
+  --loop_depth_;
+}
+
+/// `pairs(...)` is refused by name; anything else as such.
+void Walker::refuse_generic_for(const GenericForStat& stat) {
   const auto* call = stat.values.empty() ? nullptr : try_as<CallExpr>(stat.values[0]);
   const auto* name = call != nullptr ? try_as<NameExpr>(call->callee) : nullptr;
   const bool is_named = name != nullptr && name->is_global() && context_.globals.find(name->name) == nullptr &&
-                        (name->name == "ipairs" || name->name == "pairs" || name->name == "next");
+                        (name->name == "pairs" || name->name == "next");
   if (is_named) {
     refuse_name(name->span, name->name);
   } else if (!stat.values.empty()) {
@@ -344,11 +435,6 @@ void Walker::generic_for(const GenericForStat& stat) {
       error(Code::GenericForLoop, stat.values[0]->span);
     }
   }
-  ++loop_depth_;
-  for (const Local* variable : stat.variables)
-    declare(*variable, unknown_type(), variable->span, nullptr);
-  block(*stat.body);
-  --loop_depth_;
 }
 
 namespace {
@@ -360,15 +446,16 @@ std::string count_of_values(size_t count) {
 } // namespace
 
 void Walker::return_values(const ReturnStat& stat) {
-  TypeList list = expression_list(stat.values);
+  const TypeList list = expression_list(stat.values);
   if (at_top_level()) return; // what the file returns nobody reads
-  for (size_t i = 0; i < list.types.size(); ++i) {
-    Type& type = list.types[i];
-    if (!is_function(type) && type.kind != Type::Kind::String) continue;
-    error(Code::NotAvailableYet, stat.values[std::min(i, stat.values.size() - 1)]->span,
-          {type.kind == Type::Kind::String ? "strings as results are" : "functions as results are"});
-    type = unknown_type();
-  }
+  join_results(stat, list);
+  if (work_.site != nullptr || work_.caller == nullptr || !context_.makers.contains(work_.function)) return;
+  // From the next round on each call has a specialisation of its own.
+  work_.has_results = false;
+  work_.has_open_return = true;
+}
+
+void Walker::join_results(const ReturnStat& stat, const TypeList& list) {
   if (list.open) {
     work_.has_open_return = true;
     return;
@@ -380,9 +467,12 @@ void Walker::return_values(const ReturnStat& stat) {
     work_.has_results = true;
     work_.results = work_.first_results = list.types;
     work_.first_return = stat.span;
+    work_.result_spans.clear();
     for (size_t i = 0; i < list.types.size(); ++i)
       work_.result_spans.push_back(span_of(i));
     context_.changed = true;
+    for (const Type& type : work_.results)
+      escape(type);
     return;
   }
   if (list.types.size() != work_.results.size()) {
@@ -393,6 +483,13 @@ void Walker::return_values(const ReturnStat& stat) {
     return;
   }
   for (size_t i = 0; i < list.types.size(); ++i) {
+    if (is_table(work_.results[i]) && is_table(list.types[i])) {
+      const Type merged = merge_results(stat, i, list.types[i]);
+      if (merged != work_.results[i]) context_.changed = true;
+      work_.results[i] = work_.first_results[i] = merged;
+      escape(merged);
+      continue;
+    }
     const bool fits = join(work_.first_results[i], list.types[i]).has_value();
     if (!fits) refuse_result(context_, work_, i, list.types[i], span_of(i));
     if (!fits && is_unknown(work_.conflict_type)) {
@@ -402,9 +499,9 @@ void Walker::return_values(const ReturnStat& stat) {
     }
     if (is_unknown(work_.first_results[i])) work_.first_results[i] = list.types[i];
     const Type joined = fits ? join(work_.results[i], list.types[i]).value_or(conflicting_type()) : conflicting_type();
-    if (joined == work_.results[i]) continue;
+    if (joined != work_.results[i]) context_.changed = true;
     work_.results[i] = joined;
-    context_.changed = true;
+    escape(joined);
   }
 }
 

@@ -26,6 +26,8 @@ std::string describe(const Type& type) {
     return "a string";
   case Type::Kind::Function:
     return "a function";
+  case Type::Kind::Table:
+    return type.table->kind == Table::Kind::Array ? "an array" : "a record";
   case Type::Kind::Library:
     return type.text == "math" ? "a table of the library" : "the library's function '" + std::string(type.text) + "'";
   }
@@ -42,6 +44,8 @@ std::string type_name(const Type& type) {
     return std::string(name_of(type.value));
   case Type::Kind::String:
     return "string";
+  case Type::Kind::Table:
+    return type.table->kind == Table::Kind::Array ? "array" : "record";
   case Type::Kind::Function:
   case Type::Kind::Library:
     return "function";
@@ -52,6 +56,8 @@ std::string type_name(const Type& type) {
 size_t hash_of(const Type& type) {
   size_t hash = static_cast<size_t>(type.kind) * 31 + static_cast<size_t>(type.value) * 2 + (type.mixed ? 1 : 0);
   hash = hash * 1000003 + std::hash<const void*>()(type.function);
+  hash = hash * 1000003 + std::hash<const void*>()(type.frame);
+  hash = hash * 1000003 + std::hash<const void*>()(type.table);
   return hash * 1000003 + std::hash<std::string_view>()(type.text);
 }
 

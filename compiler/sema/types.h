@@ -13,16 +13,37 @@ inline Type unknown_type() { return {}; }
 inline Type number_type() { return Type::of(ValueType::Number); }
 inline Type integer_type() { return Type::of(ValueType::Integer); }
 inline Type boolean_type() { return Type::of(ValueType::Boolean); }
-inline Type none_type() { return {Type::Kind::None, ValueType::Boolean, nullptr, {}, false, false}; }
-inline Type mixed_type() { return {Type::Kind::Value, ValueType::Number, nullptr, {}, true, false}; }
+inline Type type_of_kind(Type::Kind kind) {
+  Type type;
+  type.kind = kind;
+  return type;
+}
+inline Type none_type() { return type_of_kind(Type::Kind::None); }
+inline Type mixed_type() {
+  Type type = number_type();
+  type.mixed = true;
+  return type;
+}
 inline Type string_type(std::string_view text) {
-  return {Type::Kind::String, ValueType::Boolean, nullptr, text, false, false};
+  Type type = type_of_kind(Type::Kind::String);
+  type.text = text;
+  return type;
 }
 inline Type library_type(std::string_view name) {
-  return {Type::Kind::Library, ValueType::Boolean, nullptr, name, false, false};
+  Type type = type_of_kind(Type::Kind::Library);
+  type.text = name;
+  return type;
 }
-inline Type function_type(const syntax::Function* function) {
-  return {Type::Kind::Function, ValueType::Boolean, function, {}, false, false};
+inline Type function_type(const syntax::Function* function, Work* frame) {
+  Type type = type_of_kind(Type::Kind::Function);
+  type.function = function;
+  type.frame = frame;
+  return type;
+}
+inline Type table_type(Table* table) {
+  Type type = type_of_kind(Type::Kind::Table);
+  type.table = table;
+  return type;
 }
 
 inline bool is_unknown(const Type& type) { return type.kind == Type::Kind::Unknown; }
@@ -32,6 +53,9 @@ inline bool is_scalar(const Type& type) { return type.is(ValueType::Integer) || 
 inline bool is_function(const Type& type) {
   return type.kind == Type::Kind::Function || type.kind == Type::Kind::Library;
 }
+inline bool is_table(const Type& type) { return type.kind == Type::Kind::Table; }
+/// What can be an operand, a parameter or a variable at run time, functions and constants left aside.
+inline bool has_storage(const Type& type) { return type.is_value() || (is_table(type) && type.table->is_element()); }
 inline bool is_vector(const Type& type) { return type.is_value() && is_vector(type.value); }
 
 inline bool is_matrix(const Type& type) { return type.is_value() && is_matrix(type.value); }

@@ -24,17 +24,47 @@ private:
   /// All values: several only for a call.
   TypeList values(const syntax::Expr& expr);
   TypeList expression_list(std::span<syntax::Expr* const> exprs);
-  /// The value of an expression that must exist at run time: functions, strings and nothing are refused.
-  Type run_time_value(const syntax::Expr& expr);
   Type name(const syntax::NameExpr& expr);
   Type local_name(const syntax::NameExpr& expr);
   Type global_name(const syntax::NameExpr& expr);
   Type index(const syntax::IndexExpr& expr);
   Type library_field(const syntax::IndexExpr& expr, std::string_view table);
   Type vector_component(const syntax::IndexExpr& expr, const Type& object);
-  Type table(const syntax::TableExpr& expr);
+  /// Says where a name's value is at run time.
+  void set_place(ExpressionFact& fact, Variable& variable, std::string_view name);
   Type function_expression(const syntax::Function& function);
   void refuse_name(Span span, std::string_view name);
+
+  // ---- tables.cpp
+  Type table(const syntax::TableExpr& expr);
+  /// The constructor fills a table: its own, or the one in the slot of another constructor in which it stands.
+  void construct_table(const syntax::TableExpr& expr, Table& table);
+  void construct_array(const syntax::TableExpr& expr, Table& table);
+  void construct_record(const syntax::TableExpr& expr, Table& table);
+  void construct_field(Table& table, Table::Field& field, const syntax::Expr& value);
+  void construct_field(Table& table, Table::Field& field, const syntax::Expr& value, const Type& type);
+  void refuse_element(Table& table, const Table::Field& field, const syntax::Expr& value, const Type& type);
+  void refuse_second_slot(const syntax::Expr& value);
+  Type table_index(const syntax::IndexExpr& expr, const Type& object);
+  /// The field or element that is named; null where that was refused, or is not known yet.
+  Table::Field* accessed_field(const syntax::IndexExpr& expr, const Table& table);
+  void assign_element(const syntax::IndexExpr& target, const Type& object, const Type& type, const syntax::Expr& given,
+                      Span statement);
+  /// A table that exists already gets into the slots of another: its values are copied, so nobody may tell.
+  void copy_table(const Type& from, Table& to, const syntax::Expr& value);
+  /// The two become of one shape.
+  bool join_shapes(Table& to, const Table& from, Span place);
+  /// The table that stands for several, made where they meet: each is fresh, and is copied.
+  Type merge_tables(const Type& before, const Type& given, const void* syntax, unsigned which,
+                    const syntax::Expr& value, Span place);
+  bool is_fresh(const syntax::Expr& value, const Type& type) const;
+  /// Records where the leaves of a table are, for a constructor or a copy of it.
+  void place_leaves(Table& table);
+  /// A result, or part of one: what it refers to outlives this call.
+  bool leaves_call();
+  void escape(const Type& type);
+  void escape(Table& table);
+  std::string describe_shape(const Table& table) const;
 
   // ---- operators.cpp
   Type unary(const syntax::UnaryExpr& expr);
@@ -57,11 +87,12 @@ private:
   Type or_expression(const syntax::BinaryExpr& expr);
   struct Arm;
   std::optional<Type> conditional_type(const syntax::BinaryExpr& expr, const std::vector<Arm>& arms);
+  std::optional<Type> conditional_table(const syntax::BinaryExpr& expr, const std::vector<Arm>& arms);
   std::optional<Type> logical_type(const std::vector<Arm>& arms);
 
   // ---- calls.cpp
   TypeList call(const syntax::CallExpr& expr);
-  TypeList call_function(const syntax::CallExpr& expr, const syntax::Function& function, TypeList args);
+  TypeList call_function(const syntax::CallExpr& expr, const Type& function, TypeList args);
   TypeList call_library(const syntax::CallExpr& expr, std::string_view name);
   TypeList call_table_row(const syntax::Expr& expr, std::string_view name, const std::vector<const syntax::Expr*>& args,
                           const std::vector<Type>& types);
@@ -76,8 +107,7 @@ private:
   TypeList assert_or_error(const syntax::CallExpr& expr, bool is_assert);
   /// Argument types, the last call expanded; functions among them are refused.
   TypeList arguments(std::span<syntax::Expr* const> args);
-  bool is_recursive(const syntax::CallExpr& expr, const syntax::Function& function);
-  Work* lexical_owner(const syntax::Function* function) const;
+  bool is_recursive(const syntax::CallExpr& expr, const WorkKey& key);
 
   // ---- calculus.cpp
   TypeList derivative_call(const syntax::CallExpr& expr, std::string_view name);
@@ -101,10 +131,17 @@ private:
   void assign(const syntax::AssignStat& stat);
   void assign_name(const syntax::AssignStat& stat, const syntax::NameExpr& target, const Type& type,
                    const syntax::Expr& given);
-  void assign_index(const syntax::AssignStat& stat, const syntax::IndexExpr& target);
+  void assign_index(const syntax::AssignStat& stat, const syntax::IndexExpr& target, const Type& type,
+                    const syntax::Expr& given);
+  void bind_table(const syntax::AssignStat& stat, const syntax::NameExpr& target, const Type& type,
+                  const syntax::Expr& given);
   void define_function(const syntax::FunctionStat& stat);
   void numeric_for(const syntax::NumericForStat& stat);
+  const syntax::CallExpr* ipairs_call(const syntax::GenericForStat& stat) const;
   void generic_for(const syntax::GenericForStat& stat);
+  void refuse_generic_for(const syntax::GenericForStat& stat);
+  void join_results(const syntax::ReturnStat& stat, const TypeList& list);
+  Type merge_results(const syntax::ReturnStat& stat, size_t index, const Type& type);
   void return_values(const syntax::ReturnStat& stat);
   void declare(const syntax::Local& local, const Type& type, Span given_at, const syntax::Expr* given);
   void branch(const syntax::Expr& condition, const syntax::Block& body);
@@ -119,8 +156,6 @@ private:
   // ---- shared
   Variable& variable_of(const syntax::Local& local);
   bool at_top_level() const { return work_.function == context_.chunk.main; }
-  bool is_slot(const syntax::Local& local) const { return local.function == context_.chunk.main && local.is_captured; }
-  uint32_t slot_of(const syntax::Local& local);
   Type record(const syntax::Expr& expr, ExpressionFact fact);
   Type record(const syntax::Expr& expr, const Type& type);
   Diagnostic& error(DiagnosticCode code, Span span, std::initializer_list<std::string> args = {}) {
@@ -134,7 +169,8 @@ private:
   Context& context_;
   Work& work_;
   unsigned loop_depth_ = 0;
-  unsigned table_depth_ = 0;
+  /// Whose results the calls of this walk are, by id.
+  std::unordered_map<uint32_t, const Work*> callees_;
   unsigned parameter_branches_ = 0;          ///< enclosing branches that depend on a parameter
   std::vector<const syntax::Block*> blocks_; ///< enclosing ones in this function
   std::vector<size_t> positions_;            ///< of the statement being walked in each of them
