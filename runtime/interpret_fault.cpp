@@ -22,6 +22,8 @@ std::array<std::string_view, 3> spellings(FaultCode code) {
     return {"error", "error", "error"};
   case FaultCode::ForStepZero:
     return {"for ", "for ", "for "};
+  case FaultCode::Index:
+    return {"[", "[", "["};
   case FaultCode::IntegerRange:
     return {"floor", "ceil", "tointeger"};
   default:

@@ -34,6 +34,8 @@ using Record = InterpretState::Record;
 
 /// Raised in place of a message once the Record says what happened.
 constexpr char kRecorded = 0;
+/// The metatable of tables that the shader constructs.
+constexpr char kCheckedTable[] = "moonshade.checked";
 
 Record& record_of(lua_State* lua) { return **static_cast<Record**>(lua_getextraspace(lua)); }
 
@@ -157,6 +159,26 @@ int protected_call(lua_State* lua, int arguments, int results) {
   return status;
 }
 
+/// A key that a table of the dialect does not have: elements are asked for by number, fields by names that are known.
+int missing_key(lua_State* lua) {
+  if (lua_type(lua, 2) != LUA_TNUMBER) return 0;
+  int is_integer = 0;
+  lua_tointegerx(lua, 2, &is_integer);
+  return raise_fault(lua, is_integer ? FaultCode::Index : FaultCode::IntegerRange, "");
+}
+
+/// ipairs over a table with that metatable, which ends at the table's last element.
+int raw_ipairs(lua_State* lua) {
+  lua_pushcfunction(lua, [](lua_State* state) {
+    const lua_Integer next = lua_tointeger(state, 2) + 1;
+    lua_pushinteger(state, next);
+    return lua_rawgeti(state, 1, next) == LUA_TNIL ? 1 : 2;
+  });
+  lua_pushvalue(lua, 1);
+  lua_pushinteger(lua, 0);
+  return 3;
+}
+
 // ---- the sandbox ---------------------------------------------------------------------------------------------------
 
 void set_field(lua_State* lua, int table, const char* name, lua_CFunction function) {
@@ -168,10 +190,9 @@ void set_field(lua_State* lua, int table, const char* name, lua_CFunction functi
 void open_basics(lua_State* lua) {
   luaL_requiref(lua, "_G", luaopen_base, 0);
   lua_newtable(lua);
-  for (const char* name : {"ipairs", "type"}) {
-    lua_getfield(lua, -2, name);
-    lua_setfield(lua, -2, name);
-  }
+  lua_getfield(lua, -2, "type");
+  lua_setfield(lua, -2, "type");
+  set_field(lua, lua_absindex(lua, -1), "ipairs", raw_ipairs);
   set_field(lua, lua_absindex(lua, -1), "assert", checked_assert);
   set_field(lua, lua_absindex(lua, -1), "error", raise_error);
   set_field(lua, lua_absindex(lua, -1), "print", [](lua_State*) { return 0; });
@@ -200,13 +221,22 @@ void open_derivatives(lua_State* lua) {
   }
 }
 
-/// Calling a string counts a step (interpret_steps.h).
+/// Calling a string counts a step, or checks the accesses of its argument from then on (interpret_steps.h).
+int count_or_check(lua_State* lua) {
+  if (lua_gettop(lua) < 2) return count_step(lua);
+  luaL_setmetatable(lua, kCheckedTable);
+  return 1;
+}
+
 void open_steps(lua_State* lua) {
   lua_pushliteral(lua, "");
   lua_newtable(lua);
-  set_field(lua, lua_absindex(lua, -1), "__call", count_step);
+  set_field(lua, lua_absindex(lua, -1), "__call", count_or_check);
   lua_setmetatable(lua, -2);
-  lua_pop(lua, 1);
+  luaL_newmetatable(lua, kCheckedTable);
+  set_field(lua, lua_absindex(lua, -1), "__index", missing_key);
+  set_field(lua, lua_absindex(lua, -1), "__newindex", missing_key);
+  lua_pop(lua, 2);
 }
 
 void push_constant(lua_State* lua, const Constant& constant) {

@@ -1,6 +1,9 @@
-// Step counting for stock Lua, by insertions at places that the syntax tree gives. A body begins behind a keyword or a
-// `)` that ends a parameter list, where `(` cannot be read as a call's arguments.
+// Step counting and checked tables for stock Lua, by insertions: of steps at places that the syntax tree gives (a body
+// begins behind a keyword or a `)` that ends a parameter list, where `(` cannot be read as a call's arguments), of
+// checks around the tokens `{` and `}`, which stand in table constructors alone.
 #include "runtime/interpret_steps.h"
+
+#include "compiler/syntax/lexer.h"
 
 #include <algorithm>
 #include <vector>
@@ -23,21 +26,33 @@ public:
   }
 
   std::string apply(std::string_view text) {
-    std::sort(places_.begin(), places_.end());
+    // Where two meet, the one that was added first comes first.
+    std::ranges::sort(places_, {}, [](const Place& place) { return std::pair{place.at, place.number}; });
     std::string result;
     result.reserve(text.size() + places_.size() * kStep.size());
     size_t done = 0;
-    for (uint32_t place : places_) {
-      result.append(text.substr(done, place - done)).append(kStep);
-      done = place;
+    for (const Place& place : places_) {
+      result.append(text.substr(done, place.at - done)).append(place.text);
+      done = place.at;
     }
     return result.append(text.substr(done));
+  }
+
+  /// `{ ... }` becomes `((""){ ... })`: the constructor's table as the argument of the same call.
+  void add_tables(FileId file, std::string_view text) {
+    Arena arena;
+    Diagnostics ignored;
+    Lexer lexer(file, text, arena, ignored);
+    for (Token token = lexer.next(); token.kind != TokenKind::EndOfFile; token = lexer.next()) {
+      if (token.kind == TokenKind::LeftBrace) add(token.span.begin, "((\"\")");
+      if (token.kind == TokenKind::RightBrace) add(token.span.end, ")");
+    }
   }
 
 private:
   /// Before the first statement; in an empty body before the keyword that ends it.
   void add_body(const Block& body, uint32_t end) {
-    places_.push_back(body.stats.empty() ? end : body.stats.front()->span.begin);
+    add(body.stats.empty() ? end : body.stats.front()->span.begin, kStep);
   }
 
   /// The loops of a block, but not those of functions inside: these have a turn of their own.
@@ -50,7 +65,7 @@ private:
                        [&](const NumericForStat& s) { add_loop(*s.body, s.span.end - kEndLength); },
                        [&](const GenericForStat& s) { add_loop(*s.body, s.span.end - kEndLength); },
                        [&](const RepeatStat& s) {
-                         places_.push_back(s.span.begin + kRepeatLength);
+                         add(s.span.begin + kRepeatLength, kStep);
                          add_loops(*s.body);
                        },
                        [&](const IfStat& s) {
@@ -67,7 +82,14 @@ private:
     add_loops(body);
   }
 
-  std::vector<uint32_t> places_;
+  struct Place {
+    uint32_t at;
+    std::string_view text;
+    size_t number;
+  };
+  void add(uint32_t at, std::string_view text) { places_.push_back({at, text, places_.size()}); }
+
+  std::vector<Place> places_;
 };
 
 } // namespace
@@ -75,6 +97,7 @@ private:
 std::string with_counted_steps(const Chunk& chunk, std::string_view text, CountedSteps steps) {
   Insertions insertions;
   insertions.add_functions(chunk, steps);
+  if (steps == CountedSteps::All) insertions.add_tables(chunk.file, text);
   return insertions.apply(text);
 }
 

@@ -16,7 +16,8 @@ enum class CountedSteps : uint8_t {
 
 /// The text of `chunk` with a call of the empty string, `("")();`, at the start of each loop body and each function
 /// body: the metatable of strings makes it the step function. No name can collide with it, and it needs neither a local
-/// nor an upvalue, of which a function has only so many.
+/// nor an upvalue, of which a function has only so many. With CountedSteps::All table constructors become arguments of
+/// such a call too, which makes an index outside of the table a fault.
 std::string with_counted_steps(const syntax::Chunk& chunk, std::string_view text, CountedSteps steps);
 
 } // namespace moonshade

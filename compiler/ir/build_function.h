@@ -121,15 +121,18 @@ private:
   ValueId slot_number(const sema::Table& table, ValueId element, ValueId index);
   ValueId load_leaf(const sema::Table::Field& field, ValueId slot);
   void store_leaf(const sema::Table::Field& field, ValueId slot, ValueId value);
-  /// The checked number of a slot that an expression names.
+  /// A slot that an expression names: its object and key are evaluated, the key not checked yet.
   struct Access {
     const sema::Table::Field* field = nullptr;
-    ValueId slot = kNone; ///< kNone: the field is there once
+    const sema::Table* table = nullptr;
+    ValueId element = kNone; ///< kNone: the table is there once
+    ValueId key = kNone;     ///< of an array
+    Span place{};
   };
   Access access(const syntax::IndexExpr& expr);
+  /// The number of the slot, or a fault.
+  ValueId checked_slot(const Access& access);
   ValueId table_index(const syntax::IndexExpr& expr);
-  /// An index from 0, checked.
-  ValueId array_index(const syntax::Expr& key, uint32_t length);
   void ipairs_loop(const syntax::GenericForStat& stat);
 
   // Statements (build_statements.cpp)

@@ -108,7 +108,7 @@ void FunctionBuild::assign(const AssignStat& stat) {
   const std::vector<sema::Type> types = types_of(stat.values);
   for (size_t i = std::min(stat.targets.size(), values.size()); i-- > 0;) {
     if (elements[i].field != nullptr) {
-      store_leaf(*elements[i].field, elements[i].slot, values[i]);
+      store_leaf(*elements[i].field, checked_slot(elements[i]), values[i]);
       continue;
     }
     const auto* target = try_as<NameExpr>(stat.targets[i]);

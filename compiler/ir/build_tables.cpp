@@ -170,40 +170,46 @@ void FunctionBuild::copy_fields(const Table& to, ValueId to_slot, const Table& f
 
 // ---- access --------------------------------------------------------------------------------------------------------
 
-ValueId FunctionBuild::array_index(const Expr& key, uint32_t length) {
-  ValueId index = evaluate(key);
-  if (index == kNone) return b_.integer(0);
-  const At at(b_, key.span);
-  if (b_.type_of(index) == ValueType::Number) {
+FunctionBuild::Access FunctionBuild::access(const IndexExpr& expr) {
+  const sema::ExpressionFact& known = fact(expr);
+  if (known.field == nullptr) return {};
+  Access access{known.field, fact(*expr.object).type.table, evaluate(*expr.object), kNone, expr.key->span};
+  if (is_array(*access.table)) access.key = evaluate(*expr.key);
+  return access;
+}
+
+ValueId FunctionBuild::checked_slot(const Access& access) {
+  if (!is_array(*access.table)) return access.element;
+  const At at(b_, access.place);
+  const uint32_t length = access.table->length;
+  ValueId index = access.key;
+  if (index != kNone && b_.type_of(index) == ValueType::Number) {
     for (const LibraryFunction& row : library_overloads("math.tointeger"))
       if (row.parameters[0] == ValueType::Number && row.result_count == 2) {
         const ValueId call = b_.call_library(row, ValueType::Integer, {index});
         b_.fault(b_.unary(Op::Not, b_.result(call, 1, ValueType::Boolean)), FaultCode::IntegerRange);
         index = call;
+        break;
       }
   }
+  if (index == kNone || b_.type_of(index) != ValueType::Integer) {
+    defect("an index that is no number");
+    return b_.integer(0);
+  }
   const std::optional<int64_t> known = known_integer(index);
-  if (known && *known >= 1 && *known <= int64_t{length}) return b_.integer(*known - 1);
+  if (known && *known >= 1 && *known <= int64_t{length})
+    return slot_number(*access.table, access.element, b_.integer(*known - 1));
   const ValueId below = b_.compare(Op::Lt, index, b_.integer(1));
   const ValueId above = b_.compare(Op::Lt, b_.integer(length), index);
   b_.fault(b_.binary(Op::Or, below, above), FaultCode::Index);
-  return b_.binary(Op::Sub, index, b_.integer(1));
-}
-
-FunctionBuild::Access FunctionBuild::access(const IndexExpr& expr) {
-  const sema::ExpressionFact& known = fact(expr);
-  if (known.field == nullptr) return {nullptr, kNone};
-  const ValueId element = evaluate(*expr.object);
-  const Table& table = *fact(*expr.object).type.table;
-  if (!is_array(table)) return {known.field, element};
-  const ValueId index = array_index(*expr.key, table.length);
-  return {known.field, slot_number(table, element, index)};
+  return slot_number(*access.table, access.element, b_.binary(Op::Sub, index, b_.integer(1)));
 }
 
 ValueId FunctionBuild::table_index(const IndexExpr& expr) {
   const Access found = access(expr);
-  if (found.field->inner != nullptr) return found.field->inner->is_element() ? found.slot : kNone;
-  return load_leaf(*found.field, found.slot);
+  const ValueId slot = checked_slot(found);
+  if (found.field->inner != nullptr) return found.field->inner->is_element() ? slot : kNone;
+  return load_leaf(*found.field, slot);
 }
 
 /// for i, v in ipairs(t): the length is fixed and no element is nil.

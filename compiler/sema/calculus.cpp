@@ -50,8 +50,8 @@ bool Walker::takes_derivative_arguments(const CallExpr& expr, std::string_view n
   if (std::ranges::any_of(args.types.begin(), args.types.begin() + static_cast<ptrdiff_t>(count), is_unknown))
     return false;
   const Type& function = args.types[0];
-  const bool is_row = function.kind == Type::Kind::Library && !is_built_in(function.text) &&
-                      !library_overloads(function.text).empty();
+  const bool is_row =
+      function.kind == Type::Kind::Library && !is_built_in(function.text) && !library_overloads(function.text).empty();
   if (function.kind != Type::Kind::Function && !is_row) return refuse(0, "a function that gives a number");
   if (!is_scalar(args.types[1]) && !is_vector(args.types[1])) return refuse(1, "a number or a vector");
   if (count == 3 && !is_scalar(args.types[2])) return refuse(2, "a number");

@@ -51,15 +51,15 @@ TypeList Walker::call(const CallExpr& expr) {
 /// A call of a function from within itself. With functions or tables among the arguments it may be another function in
 /// all but name (`twice(function(x) return twice(f, x) end, x)`), so then only a few such calls make a recursion.
 bool Walker::is_recursive(const CallExpr& expr, const WorkKey& key) {
-  constexpr size_t kMostInside = 4;
+  constexpr size_t kMostInside = 32;
   std::vector<const Work*> chain;
   size_t inside = 0;
   const Work* at = &work_;
   for (; at != nullptr; at = at->caller) {
     if (at->function == key.function) {
       const auto is_reference = [](const Type& type) { return is_function(type) || is_table(type); };
-      const bool is_other = at->arguments != key.arguments &&
-                            (std::ranges::any_of(key.arguments, is_reference) || at->parent != key.parent);
+      const bool is_other = at->parent != key.parent ||
+                            (at->arguments != key.arguments && std::ranges::any_of(key.arguments, is_reference));
       if (!is_other || ++inside == kMostInside) break;
     }
     chain.push_back(at);

@@ -112,11 +112,13 @@ void check_table_result(Context& context, const EntryPlan& plan) {
 
 void finish_entry(Context& context, const EntryPlan& plan) {
   const Work& work = *plan.work;
-  if (plan.is_in_table) check_table_result(context, plan);
-  for (size_t i = 0; !plan.is_in_table && i < work.results.size(); ++i)
-    if (is_matrix(work.results[i]))
-      context.error(Code::EntryResult, work.result_spans[i],
-                    {std::string(plan.global->name), "booleans, numbers and vectors", describe(work.results[i])});
+  if (plan.is_in_table) {
+    check_table_result(context, plan);
+  } else {
+    for (size_t i = 0; i < work.results.size(); ++i)
+      if ((!work.results[i].is_value() || is_matrix(work.results[i])) && !is_unknown(work.results[i]))
+        context.error(Code::EntryValues, work.result_spans[i], {describe(work.results[i])});
+  }
   if (!plan.is_selected || work.spec == nullptr) return;
   EntryInfo info;
   info.name = plan.global->name;

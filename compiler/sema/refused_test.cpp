@@ -79,12 +79,12 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"function height(p) $x = 1 return x + y() end\nfunction y() return 1 end", {"global-assignment"}},
         Refusal{"$math.pi = 3", {"library-assignment"}}, Refusal{"$function math.f() end", {"library-assignment"}}));
 
-INSTANTIATE_TEST_SUITE_P(
-    NotYet, RefusalTest,
-    Values(Refusal{"local m = $require 'm'", {"not-available-yet"}}, Refusal{"$print(1)", {"not-available-yet"}},
-           Refusal{"function color(p) return $texture('a.png', p.xy) end", {"not-available-yet"}},
-           Refusal{"function height(p) local i = 1 return p[$i] end", {"not-available-yet"}},
-           Refusal{"function height(p) return math.max(1, $p) end", {"argument-type"}}));
+INSTANTIATE_TEST_SUITE_P(NotYet, RefusalTest,
+                         Values(Refusal{"local m = $require 'm'", {"not-available-yet"}},
+                                Refusal{"$print(1)", {"not-available-yet"}},
+                                Refusal{"function color(p) return $texture('a.png', p.xy) end", {"not-available-yet"}},
+                                Refusal{"function height(p) local i = 1 return p[$i] end", {"not-available-yet"}},
+                                Refusal{"function height(p) return math.max(1, $p) end", {"argument-type"}}));
 
 INSTANTIATE_TEST_SUITE_P(
     Tables, RefusalTest,
@@ -92,9 +92,9 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"local t = { 1, ${ 2, $nil } }", {"type-conflict", "nil-value"}},
         Refusal{"local t = ${}", {"empty-table"}}, Refusal{"local t = { $[1] = 2 }", {"keyed-field"}},
         Refusal{"local t = { 1, $x = 2 }", {"mixed-table"}}, Refusal{"local t = { x = 1, $x = 2 }", {"field-twice"}},
-        Refusal{"local t = { 1, $vec3(1) }", {"type-conflict"}}, Refusal{"local t = { $sin, $cos }", {"array-element", "array-element"}},
-        Refusal{"local t = { $'a' }", {"array-element"}},
-        Refusal{"local t = { { 1, 2 }, ${ 1 } }", {"table-shapes"}},
+        Refusal{"local t = { 1, $vec3(1) }", {"type-conflict"}},
+        Refusal{"local t = { $sin, $cos }", {"array-element", "array-element"}},
+        Refusal{"local t = { $'a' }", {"array-element"}}, Refusal{"local t = { { 1, 2 }, ${ 1 } }", {"table-shapes"}},
         Refusal{"local t = { { x = 1 }, ${ y = 1 } }", {"table-shapes"}},
         Refusal{"local t = { 1 }\nlocal x = t.$x", {"unknown-field"}},
         Refusal{"local t = { red = 1 }\nlocal x = t.$rad", {"unknown-field"}},
@@ -131,8 +131,9 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"function height(p)\n  local f = $ipairs\n  return 1\nend", {"library-left-out"}},
         Refusal{"function color(p) return $sin end", {"entry-result"}},
         Refusal{"function f(p) return ${ 1 } end", {"entry-result"}},
-        Refusal{"local function f(x) if x > 0 then return sin end return $cos end\nfunction height(p) return f(p.x)(1) end",
-                {"function-not-known"}}));
+        Refusal{
+            "local function f(x) if x > 0 then return sin end return $cos end\nfunction height(p) return f(p.x)(1) end",
+            {"function-not-known"}}));
 
 INSTANTIATE_TEST_SUITE_P(
     Names, RefusalTest,

@@ -113,6 +113,7 @@ void Walker::construct_array(const TableExpr& expr, Table& table) {
 
 void Walker::construct_record(const TableExpr& expr, Table& table) {
   const bool is_first = table.fields.empty();
+  bool is_twice = false;
   std::vector<std::string_view> names;
   for (const TableField& given : expr.fields) {
     const auto* key = try_as<StringExpr>(given.key);
@@ -120,6 +121,7 @@ void Walker::construct_record(const TableExpr& expr, Table& table) {
     Table::Field* field = table.find(key->value);
     if (std::ranges::find(names, key->value) != names.end()) {
       error(Code::FieldTwice, key->span, {std::string(key->value)});
+      is_twice = true;
     } else if (field == nullptr && is_first) {
       field = add_field(table, key->value, key->span);
     }
@@ -132,7 +134,8 @@ void Walker::construct_record(const TableExpr& expr, Table& table) {
   }
   const bool is_same = names.size() == table.fields.size() &&
                        std::ranges::all_of(names, [&](std::string_view name) { return table.find(name) != nullptr; });
-  if (is_same || names.size() != expr.fields.size()) return;
+  const bool is_reported = names.size() != expr.fields.size() || is_twice;
+  if (is_same || is_reported) return;
   std::string text;
   for (const std::string_view name : names)
     text += (text.empty() ? "" : ", ") + std::string(name);
@@ -256,10 +259,7 @@ Type Walker::merge_tables(const Type& before, const Type& given, const void* syn
   if (before == given && !before.table->is_element()) return before;
   Table& merged = *context_.table_of(work_, syntax, which, value.span);
   merged.syntax = syntax;
-  if (!is_fresh(value, given)) {
-    error(Code::TableNotKnown, place, {"this stands"});
-    return table_type(&merged);
-  }
+  if (!is_fresh(value, given)) error(Code::TableNotKnown, place, {"this stands"});
   if (before.table != &merged) join_shapes(merged, *before.table, value.span);
   join_shapes(merged, *given.table, value.span);
   place_leaves(*given.table);
