@@ -31,6 +31,6 @@ end
 -- error: 16:3 table-slot
 -- error: 17:3 table-slot
 -- error: 18:12 unknown-field
--- error: 18:24 unknown-field
--- error: 18:30 record-index
--- error: 18:37 index-type
+-- error: 18:22 unknown-field
+-- error: 18:28 record-index
+-- error: 18:35 index-type
