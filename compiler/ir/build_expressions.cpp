@@ -441,7 +441,7 @@ FunctionBuild::Values FunctionBuild::call(const Expr& expr) {
   const ExpressionFact& known = fact(expr);
   if (known.call == CallKind::Parameter) {
     const GlobalId global = shared_.parameters[known.index];
-    if (global == kNone || !is_value(known.type)) return {kNone};
+    if (global == kNone || !known.type.is_value()) return {kNone};
     return {b_.load_global(global, shared_.module.globals[global].type)};
   }
   if (known.call == CallKind::Error) {
