@@ -1,37 +1,53 @@
-// A perspective camera prepared for rays.
+// A camera prepared for rays: perspective (with a lens, where it has an aperture) or orthographic.
 #pragma once
 
 #include "renderer/geometry/geometry.h"
+#include "renderer/sampling/warp.h"
 #include "renderer/scene/scene.h"
 
 namespace moonshade::renderer {
 
 class CameraRays {
 public:
-  CameraRays(const Camera& camera, int width, int height) : origin_(camera.from) {
-    Vec3 forward = glm::normalize(camera.to - camera.from);
-    forward_ = forward;
-    Vec3 right = glm::normalize(glm::cross(forward, camera.up));
-    Vec3 up = glm::cross(right, forward);
-    float half = std::tan(0.5f * camera.fov * kPi / 180);
+  CameraRays(const Camera& camera, int width, int height)
+      : parallel_(camera.kind == CameraKind::Orthographic), origin_(camera.from),
+        forward_(glm::normalize(camera.to - camera.from)), lens_radius_(parallel_ ? 0 : 0.5f * camera.aperture) {
+    right_ = glm::normalize(glm::cross(forward_, camera.up));
+    up_ = glm::cross(right_, forward_);
+    focus_ = camera.focus > 0 ? camera.focus : glm::length(camera.to - camera.from);
+    float half = parallel_ ? 0.5f * camera.height : std::tan(0.5f * camera.fov * kPi / 180);
     pixel_ = 2 * half / float(height);
-    corner_ = forward - right * (half * float(width) / float(height)) + up * half;
-    across_ = right * pixel_;
-    down_ = -up * pixel_;
+    corner_ = up_ * half - right_ * (half * float(width) / float(height));
+    if (!parallel_) corner_ += forward_;
+    across_ = right_ * pixel_;
+    down_ = -up_ * pixel_;
   }
 
-  /// Through a place of the image in pixels, (0, 0) at its upper left corner.
-  Ray ray(float x, float y) const { return {origin_, 0, glm::normalize(corner_ + across_ * x + down_ * y), kInfinity}; }
+  /// Through a place of the image in pixels, (0, 0) at its upper left corner, and a place of the lens in the unit
+  /// square.
+  Ray ray(float x, float y, const Vec2& lens = Vec2(0.5f)) const {
+    Vec3 place = corner_ + across_ * x + down_ * y;
+    if (parallel_) return {origin_ + place, 0, forward_, kInfinity};
+    if (lens_radius_ == 0) return {origin_, 0, glm::normalize(place), kInfinity};
+    Vec2 disk = sample_disk(lens) * lens_radius_;
+    Vec3 from = right_ * disk.x + up_ * disk.y;
+    // All rays of one place of the image meet on the plane in focus.
+    return {origin_ + from, 0, glm::normalize(place * focus_ - from), kInfinity};
+  }
+  bool has_lens() const { return lens_radius_ > 0; }
 
-  /// Width of a pixel's footprint per unit of distance.
-  float spread() const { return pixel_; }
+  /// Width of a pixel's footprint at the ray's origin, and its growth per unit of distance.
+  float width() const { return parallel_ ? pixel_ : 0; }
+  float spread() const { return parallel_ ? 0 : pixel_; }
 
   /// Of a point, along the camera's axis.
   float depth(const Vec3& point) const { return glm::dot(point - origin_, forward_); }
 
 private:
-  Vec3 origin_, forward_{0}, corner_{0}, across_{0}, down_{0};
-  float pixel_ = 0;
+  bool parallel_;
+  Vec3 origin_, forward_, right_{0}, up_{0};
+  Vec3 corner_{0}, across_{0}, down_{0}; ///< of the image: a unit away, or in the camera's plane
+  float lens_radius_, focus_ = 1, pixel_ = 0;
 };
 
 } // namespace moonshade::renderer

@@ -5,14 +5,20 @@
 #include "renderer/geometry/embree_api.h"
 #include "renderer/geometry/float_environment.h"
 
+#include <cstring>
+#include <map>
+
 namespace moonshade::renderer {
 
 struct Geometry::Embree {
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
+  std::map<const Mesh*, RTCScene> shared; ///< meshes that stand in the scene several times
   std::string error;
 
   ~Embree() {
+    for (const auto& [mesh, mesh_scene] : shared)
+      rtcReleaseScene(mesh_scene);
     if (scene) rtcReleaseScene(scene);
     if (device) rtcReleaseDevice(device);
   }
@@ -21,9 +27,18 @@ struct Geometry::Embree {
 Geometry::Geometry() : embree_(std::make_unique<Embree>()) {}
 Geometry::~Geometry() = default;
 
+WorldVertices::WorldVertices(const Object& object, bool keep) : mesh_(object.mesh.get()), to_world_(object.to_world) {
+  if (!keep) return;
+  kept_.reserve(mesh_->positions.size() + 1);
+  bool identity = object.to_world == Mat4(1.0f);
+  for (const Vec3& p : mesh_->positions)
+    kept_.push_back(identity ? p : Vec3(to_world_ * glm::dvec4(DVec3(p), 1.0)));
+  kept_.push_back(Vec3(0));
+}
+
 namespace {
 
-PlacedObject place(const Object& object) {
+PlacedObject place(const Object& object, bool instanced) {
   PlacedObject placed;
   placed.object = &object;
   DMat4 m(object.to_world);
@@ -34,17 +49,16 @@ PlacedObject place(const Object& object) {
   placed.mirrored = determinant < 0;
   placed.identity = object.to_world == Mat4(1.0f);
   placed.scale = float(std::cbrt(std::abs(determinant)));
+  placed.greatest_scale =
+      std::max(glm::length(placed.linear[0]), std::max(glm::length(placed.linear[1]), glm::length(placed.linear[2])));
   Box box;
   if (object.shape == Shape::Sphere) {
     placed.extent = 2 * object.radius;
     return placed;
   }
-  placed.vertices.reserve(object.mesh->positions.size() + 1);
-  for (const Vec3& p : object.mesh->positions) {
-    placed.vertices.push_back(placed.identity ? p : Vec3(m * glm::dvec4(DVec3(p), 1.0)));
+  placed.vertices = WorldVertices(object, !instanced);
+  for (const Vec3& p : object.mesh->positions)
     if (is_finite(p)) box.add(p);
-  }
-  placed.vertices.push_back(Vec3(0));
   placed.extent = box.empty() ? 1.0f : max_component(box.high - box.low);
   return placed;
 }
@@ -102,6 +116,16 @@ void keep_opaque(const RTCFilterFunctionNArguments* args) {
       args->valid[i] = 0;
 }
 
+/// The same for a mesh that several objects share: which of them it is, the hit says.
+void keep_opaque_instance(const RTCFilterFunctionNArguments* args) {
+  const auto* objects = static_cast<const PlacedObject*>(args->geometryUserPtr);
+  for (unsigned i = 0; i < args->N; ++i) {
+    if (!args->valid[i]) continue;
+    const PlacedObject& placed = objects[RTCHitN_instID(args->hit, args->N, i, 0)];
+    if (placed.passable[placed.material_of(RTCHitN_primID(args->hit, args->N, i))]) args->valid[i] = 0;
+  }
+}
+
 bool lets_through(const PlacedObject& placed) {
   return placed.passable && std::any_of(placed.object->materials.begin(), placed.object->materials.end(),
                                         [&](uint32_t material) { return placed.passable[material] != 0; });
@@ -139,14 +163,80 @@ std::unique_ptr<Geometry> Geometry::build(const Scene& scene, std::string& error
   std::unique_ptr<Geometry> geometry(new Geometry);
   geometry->passable_ = std::move(passable);
   geometry->objects_.reserve(scene.objects.size()); // Embree keeps pointers to its elements
+  std::map<const Mesh*, size_t> uses;
+  for (const Object& object : scene.objects)
+    if (object.shape == Shape::Mesh && object.mesh->triangles.size() >= kInstancedTriangles) ++uses[object.mesh.get()];
   for (const Object& object : scene.objects) {
-    geometry->objects_.push_back(place(object));
+    geometry->objects_.push_back(place(object, uses[object.mesh.get()] > 1));
     if (!geometry->passable_.empty()) geometry->objects_.back().passable = geometry->passable_.data();
     geometry->bounds_.add(bounds_of(object));
   }
   DefaultFloatEnvironment restore; // committing flushes denormals in this thread
   if (!geometry->commit(error)) return nullptr;
   return geometry;
+}
+
+RTCGeometry Geometry::triangles(PlacedObject& placed, bool instanced) {
+  const Mesh& mesh = *placed.object->mesh;
+  RTCGeometry geometry = rtcNewGeometry(embree_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  if (instanced) {
+    // Embree reads four floats at a vertex: its own buffer ends as it needs.
+    void* buffer = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Vec3),
+                                           mesh.positions.size());
+    if (buffer) std::memcpy(buffer, mesh.positions.data(), mesh.positions.size() * sizeof(Vec3));
+    rtcSetGeometryUserData(geometry, objects_.data());
+  } else {
+    std::span<const Vec3> vertices = placed.vertices.kept();
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, vertices.data(), 0, sizeof(Vec3),
+                               vertices.size() - 1);
+    rtcSetGeometryUserData(geometry, &placed);
+    if (lets_through(placed)) rtcSetGeometryOccludedFilterFunction(geometry, keep_opaque);
+  }
+  rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh.triangles.data(), 0,
+                             sizeof(Mesh::Corners), mesh.triangles.size());
+  return geometry;
+}
+
+RTCGeometry Geometry::instance_of(PlacedObject& placed) {
+  RTCScene& shared = embree_->shared[placed.object->mesh.get()];
+  if (!shared) {
+    shared = rtcNewScene(embree_->device);
+    rtcSetSceneFlags(shared, RTC_SCENE_FLAG_ROBUST);
+    RTCGeometry mesh = triangles(placed, true);
+    // Any of the objects may let light through; those that do not pass the filter at once.
+    bool any = std::any_of(objects_.begin(), objects_.end(), [&](const PlacedObject& other) {
+      return other.object->mesh == placed.object->mesh && lets_through(other);
+    });
+    if (any) rtcSetGeometryOccludedFilterFunction(mesh, keep_opaque_instance);
+    rtcCommitGeometry(mesh);
+    rtcAttachGeometryByID(shared, mesh, 0);
+    rtcReleaseGeometry(mesh);
+    rtcCommitScene(shared);
+  }
+  RTCGeometry geometry = rtcNewGeometry(embree_->device, RTC_GEOMETRY_TYPE_INSTANCE);
+  rtcSetGeometryInstancedScene(geometry, shared);
+  rtcSetGeometryTimeStepCount(geometry, 1);
+  const Mat4& m = placed.object->to_world;
+  rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR, &m[0][0]);
+  return geometry;
+}
+
+void Geometry::attach(unsigned id) {
+  PlacedObject& placed = objects_[id];
+  RTCGeometry geometry = nullptr;
+  if (placed.object->shape == Shape::Mesh) {
+    geometry = placed.vertices.kept().empty() ? instance_of(placed) : triangles(placed, false);
+  } else {
+    geometry = rtcNewGeometry(embree_->device, RTC_GEOMETRY_TYPE_USER);
+    rtcSetGeometryUserPrimitiveCount(geometry, 1);
+    rtcSetGeometryUserData(geometry, &placed);
+    rtcSetGeometryBoundsFunction(geometry, sphere_bounds, nullptr);
+    rtcSetGeometryIntersectFunction(geometry, sphere_intersect);
+    rtcSetGeometryOccludedFunction(geometry, sphere_occluded);
+  }
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometryByID(embree_->scene, geometry, id);
+  rtcReleaseGeometry(geometry);
 }
 
 bool Geometry::commit(std::string& error) {
@@ -158,29 +248,8 @@ bool Geometry::commit(std::string& error) {
       &e);
   e.scene = rtcNewScene(e.device);
   rtcSetSceneFlags(e.scene, RTC_SCENE_FLAG_ROBUST);
-  for (unsigned id = 0; id < objects_.size(); ++id) {
-    PlacedObject& placed = objects_[id];
-    bool mesh = placed.object->shape == Shape::Mesh;
-    RTCGeometry geometry = rtcNewGeometry(e.device, mesh ? RTC_GEOMETRY_TYPE_TRIANGLE : RTC_GEOMETRY_TYPE_USER);
-    if (mesh) {
-      const auto& triangles = placed.object->mesh->triangles;
-      rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, placed.vertices.data(), 0,
-                                 sizeof(Vec3), placed.vertices.size() - 1);
-      rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, triangles.data(), 0,
-                                 sizeof(Mesh::Corners), triangles.size());
-      rtcSetGeometryUserData(geometry, &placed);
-      if (lets_through(placed)) rtcSetGeometryOccludedFilterFunction(geometry, keep_opaque);
-    } else {
-      rtcSetGeometryUserPrimitiveCount(geometry, 1);
-      rtcSetGeometryUserData(geometry, &placed);
-      rtcSetGeometryBoundsFunction(geometry, sphere_bounds, nullptr);
-      rtcSetGeometryIntersectFunction(geometry, sphere_intersect);
-      rtcSetGeometryOccludedFunction(geometry, sphere_occluded);
-    }
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometryByID(e.scene, geometry, id);
-    rtcReleaseGeometry(geometry);
-  }
+  for (unsigned id = 0; id < objects_.size(); ++id)
+    attach(id);
   rtcCommitScene(e.scene);
   if (!e.error.empty()) return error = "Embree: " + e.error, false;
   return true;
@@ -194,8 +263,10 @@ void Geometry::closest(std::span<const Ray> rays, Hit* hits) const {
     query.hit.primID = 0;
     query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     embree_intersect(embree_->scene, query);
-    hits[i] =
-        query.hit.geomID == RTC_INVALID_GEOMETRY_ID ? Hit{} : Hit{query.hit.geomID, query.hit.primID, query.ray.tfar};
+    bool instance = query.hit.instID[0] != RTC_INVALID_GEOMETRY_ID;
+    hits[i] = query.hit.geomID == RTC_INVALID_GEOMETRY_ID
+                  ? Hit{}
+                  : Hit{instance ? query.hit.instID[0] : query.hit.geomID, query.hit.primID, query.ray.tfar};
   }
 }
 

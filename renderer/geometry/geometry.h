@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+struct RTCGeometryTy; // Embree's
+
 namespace moonshade::renderer {
 
 struct Ray {
@@ -36,16 +38,36 @@ struct SurfacePoint {
   float offset = 0;   ///< how far a ray must start from the surface not to meet it again
 };
 
+/// The vertices of a mesh in world space: kept, or, where the mesh stands in the scene several times and is kept once
+/// in object space, computed anew each time. The bits are the same.
+class WorldVertices {
+public:
+  WorldVertices() = default;
+  WorldVertices(const Object& object, bool keep);
+
+  Vec3 operator[](uint32_t index) const {
+    return kept_.empty() ? Vec3(to_world_ * glm::dvec4(DVec3(mesh_->positions[index]), 1.0)) : kept_[index];
+  }
+  /// One more than there are follows, for Embree's wide loads; empty where they are not kept.
+  std::span<const Vec3> kept() const { return kept_; }
+
+private:
+  const Mesh* mesh_ = nullptr;
+  DMat4 to_world_{1.0};
+  std::vector<Vec3> kept_;
+};
+
 /// One object, placed.
 struct PlacedObject {
   const Object* object = nullptr;
-  std::vector<Vec3> vertices; ///< of a mesh, in world space; one more at the end, for Embree's wide loads
+  WorldVertices vertices; ///< of a mesh
   DMat4 to_object{1.0};
   Mat3 linear{1.0f};        ///< of the object's matrix
   Mat3 normal_matrix{1.0f}; ///< inverse transpose of `linear`
   bool mirrored = false;
   bool identity = false;
-  float scale = 1;  ///< mean scale of the object's matrix
+  float scale = 1; ///< mean scale of the object's matrix
+  float greatest_scale = 1;
   float extent = 1; ///< largest side of the object's box in object space
   /// By material: whether shadow rays look through it; null: none is.
   const uint8_t* passable = nullptr;
@@ -58,6 +80,9 @@ struct PlacedObject {
 
 class Geometry {
 public:
+  /// A mesh with as many triangles is kept once where several objects have it.
+  static constexpr size_t kInstancedTriangles = 1000;
+
   /// Keeps a reference to the scene's objects. Null and an error where Embree fails (memory). `passable`, by material:
   /// surfaces that `occluded` looks through; empty: none.
   static std::unique_ptr<Geometry> build(const Scene& scene, std::string& error, std::vector<uint8_t> passable = {});
@@ -78,6 +103,9 @@ private:
   struct Embree;
   Geometry();
   bool commit(std::string& error);
+  RTCGeometryTy* triangles(PlacedObject& placed, bool instanced);
+  RTCGeometryTy* instance_of(PlacedObject& placed);
+  void attach(unsigned id);
   SurfacePoint triangle_point(const PlacedObject& placed, const Ray& ray, const Hit& hit) const;
   SurfacePoint sphere_point(const PlacedObject& placed, const Ray& ray, const Hit& hit) const;
 

@@ -4,6 +4,7 @@
 #include "renderer/sampling/warp.h"
 #include "renderer/test_support.h"
 
+#include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
 namespace moonshade::renderer {
@@ -120,6 +121,78 @@ TEST(Geometry, ShadowRaysEndAtTheirEnd) {
   world.geometry->occluded(rays, blocked);
   EXPECT_FALSE(blocked[0]);
   EXPECT_TRUE(blocked[1]);
+}
+
+/// A bumpy ball of some thousand triangles.
+std::shared_ptr<const Mesh> ball() {
+  auto mesh = std::make_shared<Mesh>();
+  constexpr uint32_t kRings = 40, kSides = 40;
+  for (uint32_t r = 0; r <= kRings; ++r)
+    for (uint32_t s = 0; s <= kSides; ++s) {
+      float theta = kPi * float(r) / kRings, phi = 2 * kPi * float(s) / kSides;
+      float radius = 1 + 0.1f * std::sin(7 * theta) * std::cos(5 * phi);
+      mesh->positions.push_back(
+          radius * Vec3(std::sin(theta) * std::cos(phi), std::cos(theta), std::sin(theta) * std::sin(phi)));
+    }
+  for (uint32_t r = 0; r < kRings; ++r)
+    for (uint32_t s = 0; s < kSides; ++s) {
+      uint32_t a = r * (kSides + 1) + s, b = a + kSides + 1;
+      if (r > 0) mesh->triangles.push_back({a, a + 1, b});
+      if (r + 1 < kRings) mesh->triangles.push_back({a + 1, b + 1, b});
+    }
+  return mesh;
+}
+
+TEST(Geometry, InstancesAreMetAsIfEachWereAMeshOfItsOwn) {
+  auto shared = ball();
+  ASSERT_GE(shared->triangles.size(), Geometry::kInstancedTriangles);
+  Scene once, apart;
+  for (int k = 0; k < 3; ++k) {
+    Object object;
+    object.mesh = shared;
+    object.materials = {uint32_t(k)};
+    object.to_world = glm::translate(Mat4(1.0f), Vec3(3.0f * float(k), 0, 0)) *
+                      glm::rotate(Mat4(1.0f), float(k), Vec3(1, 2, 3)) *
+                      glm::scale(Mat4(1.0f), Vec3(1, k == 2 ? -2 : 1, 0.5f));
+    once.objects.push_back(object);
+    object.mesh = ball();
+    apart.objects.push_back(object);
+  }
+  std::string error;
+  // Shadow rays pass through the second one.
+  auto a = Geometry::build(once, error, {0, 1, 0}), b = Geometry::build(apart, error, {0, 1, 0});
+  ASSERT_TRUE(a && b) << error;
+  EXPECT_TRUE(a->objects()[0].vertices.kept().empty());
+  EXPECT_FALSE(b->objects()[0].vertices.kept().empty());
+  size_t found = 0, different = 0, behind = 0;
+  for (uint32_t k = 0; k < 20000; ++k) {
+    auto random = [&](uint32_t d) { return unit_float(hash_combine(k, d)); };
+    Ray ray{Vec3(-2 + 10 * random(0), 4, -2 + 4 * random(1)), 0, Vec3(0), kInfinity};
+    ray.direction = glm::normalize(Vec3(-2 + 10 * random(2), -2, -2 + 4 * random(3)) - ray.origin);
+    Hit hit_a, hit_b;
+    a->closest({&ray, 1}, &hit_a);
+    b->closest({&ray, 1}, &hit_b);
+    uint8_t blocked_a, blocked_b;
+    a->occluded({&ray, 1}, &blocked_a);
+    b->occluded({&ray, 1}, &blocked_b);
+    different += hit_a.object != hit_b.object || hit_a.primitive != hit_b.primitive || blocked_a != blocked_b;
+    if (!hit_a.found() || hit_a.object != hit_b.object || hit_a.primitive != hit_b.primitive) continue;
+    ++found;
+    SurfacePoint p = a->surface(ray, hit_a), q = b->surface(ray, hit_b);
+    EXPECT_EQ(p.world, q.world); // not by Embree: the same bits
+    EXPECT_EQ(p.geometric_normal, q.geometric_normal);
+    EXPECT_EQ(p.local, q.local);
+    // The next ray does not meet the surface that it leaves.
+    Ray next{p.world + p.geometric_normal * p.offset, 0, p.geometric_normal, 1e-2f};
+    if (glm::dot(p.geometric_normal, ray.direction) > 0)
+      next.direction = p.geometric_normal * -1.0f, next.origin = p.world - p.geometric_normal * p.offset;
+    Hit again;
+    a->closest({&next, 1}, &again);
+    behind += again.found() && again.object == hit_a.object && again.primitive == hit_a.primitive;
+  }
+  EXPECT_GT(found, 5000u);
+  EXPECT_LT(different, 10u); // rays along edges
+  EXPECT_EQ(behind, 0u);
 }
 
 } // namespace

@@ -47,7 +47,7 @@ bool derivatives(const Vec2 uv[3], const Vec3& e1, const Vec3& e2, Vec3& dpdu, V
 SurfacePoint Geometry::triangle_point(const PlacedObject& placed, const Ray& ray, const Hit& hit) const {
   const Mesh& mesh = *placed.object->mesh;
   const Mesh::Corners& corner = mesh.triangles[hit.primitive];
-  const Vec3 &a = placed.vertices[corner[0]], &b = placed.vertices[corner[1]], &c = placed.vertices[corner[2]];
+  const Vec3 a = placed.vertices[corner[0]], b = placed.vertices[corner[1]], c = placed.vertices[corner[2]];
   DVec3 e1 = DVec3(b) - DVec3(a), e2 = DVec3(c) - DVec3(a);
   Barycentric at = meet(DVec3(a), e1, e2, ray);
   SurfacePoint s;
@@ -59,6 +59,10 @@ SurfacePoint Geometry::triangle_point(const PlacedObject& placed, const Ray& ray
   } else {
     DVec3 la(mesh.positions[corner[0]]), lb(mesh.positions[corner[1]]), lc(mesh.positions[corner[2]]);
     s.local = Vec3(la + (lb - la) * at.u + (lc - la) * at.v);
+    // Embree meets an instance in object space: its errors there count as well.
+    if (placed.vertices.kept().empty())
+      s.offset += kRelativeError * placed.greatest_scale *
+                  std::max(largest(Vec3(la)), std::max(largest(Vec3(lb)), largest(Vec3(lc))));
   }
   s.geometric_normal = Vec3(glm::normalize(glm::cross(e1, e2))) * (placed.mirrored ? -1.0f : 1.0f);
 

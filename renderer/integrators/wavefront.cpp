@@ -50,7 +50,8 @@ void Wavefront::generate(const Task& task) {
       path.sampler = Sampler(settings_.seed, pixel, task.first_sample + s);
       Vec2 u = path.sampler.two(0);
       float x = float(pixel % width) + 0.5f + sample_tent(u.x), y = float(pixel / width) + 0.5f + sample_tent(u.y);
-      path.ray = camera_.ray(x, y);
+      path.ray = camera_.has_lens() ? camera_.ray(x, y, path.sampler.two(kLensDimension)) : camera_.ray(x, y);
+      path.width = camera_.width();
       path.spread = camera_.spread();
       paths_[active_.size()] = path;
       active_.push_back(uint32_t(active_.size()));

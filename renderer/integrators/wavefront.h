@@ -70,6 +70,8 @@ private:
   bool survives(Path& path);
   void add_shadow(uint32_t path, size_t k, const LightSample& light, const Vec3& contribution);
   void trace_shadows();
+  /// Dimension 0 is the place in the pixel; those of a vertex begin behind the first kDrawCount.
+  static constexpr uint32_t kLensDimension = 1;
   uint32_t dimension(const Path& path, Draw draw) const { return 1 + path.segments * kDrawCount + draw; }
   void deliver(const Task& task, const SampleOutputs& out);
   void note_first_hits(size_t begin, size_t end);

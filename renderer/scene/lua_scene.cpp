@@ -1,22 +1,39 @@
 // Two passes over the recorded calls: materials first, so that an object may come before the material that it names.
 #include "renderer/scene/lua_scene.h"
 
+#include "renderer/scene/gltf_reader.h"
 #include "renderer/scene/lua_sandbox.h"
 #include "renderer/scene/mesh.h"
 #include "renderer/scene/obj_reader.h"
+#include "renderer/scene/ply_reader.h"
 #include "renderer/scene/read_scene.h"
 #include "renderer/scene/scene_fields.h"
 #include "renderer/scene/shapes.h"
 
 #include <glm/gtc/matrix_transform.hpp>
+#include <set>
 
 namespace moonshade::renderer {
 
 namespace {
 
-constexpr std::string_view kFunctions[] = {"camera", "render", "material", "sphere", "rectangle",
-                                           "plane",  "box",    "obj",      "light"};
-enum Function { kCamera, kRender, kMaterial, kSphere, kRectangle, kPlane, kBox, kObj, kLight };
+constexpr std::string_view kFunctions[] = {"camera", "render", "material", "sphere", "rectangle", "plane",   "box",
+                                           "obj",    "ply",    "gltf",     "light",  "group",     "instance"};
+enum Function {
+  kCamera,
+  kRender,
+  kMaterial,
+  kSphere,
+  kRectangle,
+  kPlane,
+  kBox,
+  kObj,
+  kPly,
+  kGltf,
+  kLight,
+  kGroup,
+  kInstance
+};
 
 class SceneBuilder {
 public:
@@ -41,12 +58,19 @@ private:
   void environment(SceneFields& fields, Light& light, const SceneCall& call);
   void light(SceneFields& fields, const SceneCall& call);
   void area_light(SceneFields& fields);
-  void obj(SceneFields& fields);
+  void model(SceneFields& fields, Function function);
+  void group(SceneFields& fields, const SceneCall& call, size_t index);
+  void instance(SceneFields& fields);
+  void remove_hidden();
   Object mesh_object(SceneFields& fields, std::string name, std::shared_ptr<const Mesh> mesh);
-  void place_object(SceneFields& fields, Object& object);
+  /// By `matrix`, `scale`, `rotate` and `translate`, in this order.
+  Mat4 placement(SceneFields& fields);
+  void place_object(SceneFields& fields, Object& object) { object.to_world = placement(fields) * object.to_world; }
   uint32_t material_of(SceneFields& fields);
   std::string file(SceneFields& fields, std::string_view field, const std::string& name);
   void add(Object object) { scene_.objects.push_back(std::move(object)); }
+  /// Groups of groups multiply: counts what they come to. False, and an error, beyond the limit.
+  bool afford(SceneFields& fields, size_t objects);
 
   std::string path_;
   const Folders& folders_;
@@ -55,7 +79,17 @@ private:
   std::map<int64_t, uint32_t> material_of_call_;
   std::map<std::string, uint32_t> material_of_name_;
   bool has_camera_ = false, has_render_ = false, has_emission_ = false;
-  std::map<std::string, ObjReading> models_;
+  struct LoadedModel {
+    Model model;
+    std::optional<uint32_t> first_material; ///< in the scene, where its own are used
+  };
+  std::map<std::string, LoadedModel> models_;
+  /// Objects of the scene that a call has made, itself or as a group: [first, last) may hold others' in between, so
+  /// each is listed.
+  std::map<int64_t, std::vector<uint32_t>> objects_of_call_;
+  std::set<int64_t> grouped_; ///< calls whose objects belong to a group
+  size_t objects_placed_ = 0; ///< by groups and instances
+  std::set<uint32_t> hidden_; ///< objects that only instances show
 };
 
 std::string SceneBuilder::file(SceneFields& fields, std::string_view field, const std::string& name) {
@@ -72,7 +106,14 @@ void SceneBuilder::camera(SceneFields& fields) {
   c.from = fields.vector("from", c.from);
   c.to = fields.vector("to", c.to);
   c.up = fields.vector("up", c.up);
-  c.fov = float(fields.number("fov", c.fov, 0.01, 170));
+  c.kind = CameraKind(fields.choice("type", kCameraNames));
+  if (c.kind == CameraKind::Perspective) {
+    c.fov = float(fields.number("fov", c.fov, 0.01, 170));
+    c.aperture = float(fields.number("aperture", c.aperture, 0));
+    c.focus = float(fields.number("focus", c.focus, 1e-6));
+  } else {
+    c.height = float(fields.number("height", c.height, 1e-6));
+  }
   if (c.from == c.to)
     fields.fail("'from' and 'to' are the same point");
   else if (glm::length(glm::cross(normalize_or(c.to - c.from, Vec3(0)), normalize_or(c.up, Vec3(0)))) < 1e-5f)
@@ -183,7 +224,7 @@ uint32_t SceneBuilder::material_of(SceneFields& fields) {
   return 0;
 }
 
-void SceneBuilder::place_object(SceneFields& fields, Object& object) {
+Mat4 SceneBuilder::placement(SceneFields& fields) {
   Vec3 scale = fields.triple("scale", Vec3(1)), rotate = fields.vector("rotate", Vec3(0));
   Mat4 m = glm::translate(Mat4(1.0f), fields.vector("translate", Vec3(0)));
   for (int axis = 2; axis >= 0; --axis) {
@@ -193,7 +234,9 @@ void SceneBuilder::place_object(SceneFields& fields, Object& object) {
   }
   m = glm::scale(m, scale);
   if (scale.x == 0 || scale.y == 0 || scale.z == 0) fields.fail("'scale' is not zero");
-  object.to_world = m * object.to_world;
+  Mat4 matrix = fields.matrix("matrix");
+  if (glm::determinant(DMat3(matrix)) == 0) fields.fail("'matrix' leaves no extent");
+  return m * matrix;
 }
 
 Object SceneBuilder::mesh_object(SceneFields& fields, std::string name, std::shared_ptr<const Mesh> mesh) {
@@ -205,31 +248,98 @@ Object SceneBuilder::mesh_object(SceneFields& fields, std::string name, std::sha
   return object;
 }
 
-void SceneBuilder::obj(SceneFields& fields) {
+/// A file is read once; its objects share their meshes wherever they are placed.
+void SceneBuilder::model(SceneFields& fields, Function function) {
   fields.require("file");
   std::string name = fields.text("file");
   if (name.empty()) return;
   std::string path = file(fields, "file", name);
   if (path.empty()) return;
-  auto [model, is_new] = models_.try_emplace(path);
-  if (is_new) model->second = read_obj(path, folders_);
-  if (is_new)
-    reading_.warnings.insert(reading_.warnings.end(), model->second.warnings.begin(), model->second.warnings.end());
-  if (!model->second.mesh) return fields.fail(model->second.error);
-  Object object = mesh_object(fields, path, model->second.mesh);
-  if (fields.has("material")) {
-    size_t slots = std::max<size_t>(1, model->second.materials.size());
-    object.materials.assign(slots, object.materials[0]);
-  } else {
-    object.materials.clear();
-    for (const Material& m : model->second.materials) {
-      object.materials.push_back(uint32_t(scene_.materials.size()));
+  auto [found, is_new] = models_.try_emplace(path);
+  LoadedModel& loaded = found->second;
+  Model& model = loaded.model;
+  if (is_new) {
+    model = function == kPly    ? read_ply(path)
+            : function == kGltf ? read_gltf(path, folders_)
+                                : model_of_obj(path, folders_);
+    reading_.warnings.insert(reading_.warnings.end(), model.warnings.begin(), model.warnings.end());
+  }
+  if (!model.error.empty()) return fields.fail(model.error);
+  std::optional<uint32_t> material;
+  if (fields.has("material")) material = material_of(fields);
+  if (!material && !loaded.first_material) {
+    loaded.first_material = uint32_t(scene_.materials.size());
+    for (const Material& m : model.materials) {
       const auto& emission = m.values[size_t(Slot::Emission)];
       has_emission_ |= emission && !is_black(*emission);
       scene_.materials.push_back(m);
     }
   }
-  add(std::move(object));
+  std::string own_name = fields.text("name");
+  Mat4 to_world = placement(fields);
+  for (const Object& source : model.objects) {
+    Object object = source;
+    if (!own_name.empty()) object.name = own_name;
+    object.to_world = to_world * object.to_world;
+    for (uint32_t& slot : object.materials)
+      slot = material ? *material : *loaded.first_material + slot;
+    add(std::move(object));
+  }
+}
+
+bool SceneBuilder::afford(SceneFields& fields, size_t objects) {
+  constexpr size_t kMost = 10'000'000;
+  objects_placed_ += objects;
+  if (objects_placed_ <= kMost) return true;
+  fields.fail("the scene describes too many things");
+  return false;
+}
+
+void SceneBuilder::group(SceneFields& fields, const SceneCall& call, size_t index) {
+  std::vector<uint32_t>& objects = objects_of_call_[int64_t(index)];
+  Mat4 to_world = placement(fields);
+  std::string name = fields.text("name");
+  for (const SceneValue& item : call.items) {
+    auto members = objects_of_call_.find(item.call);
+    if (item.call < 0 || members == objects_of_call_.end() || members->second.empty())
+      return fields.fail("holds what is no object");
+    if (!grouped_.insert(item.call).second)
+      return fields.fail("holds what is in a group already; instance{ of = ... } gives another one");
+    if (!afford(fields, members->second.size())) return;
+    objects.insert(objects.end(), members->second.begin(), members->second.end());
+  }
+  if (call.items.empty()) fields.fail("holds no objects: group{ sphere{...}, box{...}, translate = ... }");
+  for (uint32_t k : objects) {
+    scene_.objects[k].to_world = to_world * scene_.objects[k].to_world;
+    if (!name.empty()) scene_.objects[k].name = name;
+  }
+  if (fields.boolean("hidden", false)) hidden_.insert(objects.begin(), objects.end());
+}
+
+void SceneBuilder::instance(SceneFields& fields) {
+  fields.require("of");
+  const SceneValue* of = fields.find("of");
+  if (!of) return;
+  auto source = objects_of_call_.find(of->call);
+  if (of->call < 0 || source == objects_of_call_.end() || source->second.empty())
+    return fields.fail("'of' is what an object's function or group{} gave");
+  if (!afford(fields, source->second.size())) return;
+  std::optional<uint32_t> material;
+  if (fields.has("material")) material = material_of(fields);
+  std::string name = fields.text("name");
+  Mat4 to_world = placement(fields);
+  for (uint32_t k : std::vector<uint32_t>(source->second)) {
+    Object object = scene_.objects[k];
+    object.to_world = to_world * object.to_world;
+    if (!name.empty()) object.name = name;
+    if (material) std::fill(object.materials.begin(), object.materials.end(), *material);
+    add(std::move(object));
+  }
+}
+
+void SceneBuilder::remove_hidden() {
+  uint32_t index = 0;
+  std::erase_if(scene_.objects, [&](const Object&) { return hidden_.contains(index++); });
 }
 
 void SceneBuilder::area_light(SceneFields& fields) {
@@ -302,6 +412,7 @@ void SceneBuilder::light(SceneFields& fields, const SceneCall& call) {
 
 bool SceneBuilder::apply(const SceneCall& call, size_t index) {
   SceneFields fields(call, std::string(kFunctions[call.function]), place(call));
+  size_t before = scene_.objects.size();
   switch (Function(call.function)) {
   case kCamera:
     camera(fields);
@@ -316,7 +427,15 @@ bool SceneBuilder::apply(const SceneCall& call, size_t index) {
     light(fields, call);
     break;
   case kObj:
-    obj(fields);
+  case kPly:
+  case kGltf:
+    model(fields, Function(call.function));
+    break;
+  case kGroup:
+    group(fields, call, index);
+    break;
+  case kInstance:
+    instance(fields);
     break;
   case kSphere: {
     Object object;
@@ -353,7 +472,10 @@ bool SceneBuilder::apply(const SceneCall& call, size_t index) {
     break;
   }
   }
-  reading_.error = fields.finish();
+  std::vector<uint32_t>& made = objects_of_call_[int64_t(index)];
+  for (uint32_t k = uint32_t(before); k < scene_.objects.size(); ++k)
+    made.push_back(k);
+  reading_.error = fields.finish(call.function == kGroup);
   return reading_.error.empty();
 }
 
@@ -365,6 +487,7 @@ SceneReading SceneBuilder::build(SandboxRun run) {
   for (size_t pass = 0; pass < 2; ++pass)
     for (size_t i = 0; i < run.calls.size(); ++i)
       if ((run.calls[i].function == kMaterial) == (pass == 0) && !apply(run.calls[i], i)) return std::move(reading_);
+  remove_hidden();
   if (scene_.objects.empty()) {
     reading_.error = path_ + ": the scene has no objects";
     return std::move(reading_);

@@ -170,6 +170,94 @@ TEST_F(LuaScene, PlacesByScaleThenRotationThenTranslation) {
   EXPECT_NEAR(corner.y, 1, 1e-5f);
 }
 
+TEST_F(LuaScene, HasCamerasOfEveryKind) {
+  auto camera = [&](const std::string& fields) {
+    SceneReading reading = parse("sphere{} camera{ from = {0, 0, 5}, to = {0, 0, 0}, " + fields + " }");
+    EXPECT_TRUE(reading.scene) << reading.error;
+    return reading.scene ? reading.scene->camera : Camera();
+  };
+  EXPECT_EQ(camera("type = 'orthographic', height = 3").kind, CameraKind::Orthographic);
+  EXPECT_EQ(camera("type = 'orthographic', height = 3").height, 3);
+  EXPECT_EQ(camera("fov = 20, aperture = 0.1, focus = 4").focus, 4);
+  EXPECT_EQ(camera("fov = 20, aperture = 0.1, focus = 4").aperture, 0.1f);
+  EXPECT_THAT(error("camera{ from = {0, 0, 5}, type = 'orthographic', fov = 20 }"),
+              HasSubstr("s.lua:1: camera: unknown field 'fov'"));
+  EXPECT_THAT(error("camera{ from = {0, 0, 5}, type = 'ortographic' }"), HasSubstr("did you mean 'orthographic'?"));
+  EXPECT_THAT(error("camera{ from = {0, 0, 5}, aperture = -1 }"), HasSubstr("'aperture' lies between"));
+}
+
+TEST_F(LuaScene, GroupsAndInstancesComposeTheirPlaces) {
+  SceneReading reading = parse(R"(
+    local red = material{ name = "red" }
+    local ball = sphere{ center = {1, 0, 0}, radius = 0.5 }
+    local pair = group{ ball, box{ center = {0, 1, 0} }, rotate = {0, 0, 90}, translate = {10, 0, 0}, name = "pair" }
+    instance{ of = pair, translate = {0, 0, 5}, material = red }
+    instance{ of = ball, scale = 2, name = "large" }
+    local hidden = group{ sphere{ center = {7, 7, 7} }, hidden = true }
+    instance{ of = hidden, translate = {1, 0, 0} })");
+  ASSERT_TRUE(reading.scene) << reading.error;
+  const std::vector<Object>& o = reading.scene->objects;
+  ASSERT_EQ(o.size(), 6u);
+  auto center = [&](size_t k) { return Vec3(o[k].to_world[3]); };
+  EXPECT_LT(glm::distance(center(0), Vec3(10, 1, 0)), 1e-5f); // (1, 0, 0) turned by 90 degrees around z
+  EXPECT_EQ(o[1].name, "pair");
+  EXPECT_LT(glm::distance(center(2), Vec3(10, 1, 5)), 1e-5f);
+  EXPECT_EQ(o[2].materials, std::vector<uint32_t>{1});
+  EXPECT_EQ(o[0].materials, std::vector<uint32_t>{0});
+  EXPECT_EQ(o[1].mesh, o[3].mesh); // kept once
+  EXPECT_EQ(o[4].name, "large");
+  EXPECT_LT(glm::distance(center(4), Vec3(20, 2, 0)), 1e-4f);
+  EXPECT_EQ(center(5), Vec3(8, 7, 7)); // the hidden one itself is not there
+  EXPECT_EQ(error("group{ 1 }"), "s.lua:1: group: holds what is no object");
+  EXPECT_EQ(error("group{ material{} }"), "s.lua:1: group: holds what is no object");
+  EXPECT_THAT(error("group{}"), HasSubstr("group: holds no objects"));
+  EXPECT_THAT(error("local s = sphere{}\ngroup{ s }\ngroup{ s }"),
+              HasSubstr("s.lua:3: group: holds what is in a group"));
+  EXPECT_EQ(error("instance{ of = {} }"), "s.lua:1: instance: 'of' is what an object's function or group{} gave");
+  EXPECT_EQ(error("instance{}"), "s.lua:1: instance: the field 'of' is missing");
+  EXPECT_EQ(error("group{ sphere{}, hidden = true }"), "s.lua: the scene has no objects");
+  EXPECT_THAT(error("local g = sphere{} for i = 1, 40 do g = group{ g, instance{ of = g } } end"),
+              HasSubstr("the scene describes too many things"));
+}
+
+TEST_F(LuaScene, PlacesByAMatrix) {
+  SceneReading reading = parse("sphere{ matrix = {0, 0, 1, 5,  0, 1, 0, 6,  -1, 0, 0, 7}, translate = {1, 0, 0} }");
+  ASSERT_TRUE(reading.scene) << reading.error;
+  Vec4 p = reading.scene->objects[0].to_world * Vec4(1, 2, 3, 1);
+  EXPECT_EQ(Vec3(p), Vec3(9, 8, 6));
+  EXPECT_THAT(error("sphere{ matrix = {1, 2} }"), HasSubstr("'matrix' is a list of 12 or 16 numbers, row by row"));
+  EXPECT_THAT(error("sphere{ matrix = {0,0,0,0, 0,0,0,0, 0,0,0,0} }"), HasSubstr("'matrix' leaves no extent"));
+  EXPECT_THAT(error("sphere{ matrix = {1,0,0,0, 0,1,0,0, 0,0,1,0, 1,0,0,1} }"), HasSubstr("the last row"));
+}
+
+TEST_F(LuaScene, SeesTimeAndFrame) {
+  Folders folders = folder_.folders();
+  const char* text = "assert(math.type(frame) == 'integer') sphere{ center = {time, frame, 0} } render{ time = 3 }";
+  SceneReading still = parse_lua_scene("s.lua", text, folders);
+  ASSERT_TRUE(still.scene) << still.error;
+  EXPECT_EQ(Vec3(still.scene->objects[0].to_world[3]), Vec3(0));
+  SceneReading moving = parse_lua_scene("s.lua", text, folders, {7, 0.25});
+  ASSERT_TRUE(moving.scene) << moving.error;
+  EXPECT_EQ(Vec3(moving.scene->objects[0].to_world[3]), Vec3(0.25f, 7, 0));
+}
+
+TEST_F(LuaScene, ReadsModelsOfEveryFormatOnce) {
+  folder_.write("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  folder_.write("m.ply",
+                "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+                "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+  SceneReading reading = parse_lua_scene(folder_ / "s.lua",
+                                         "obj{ file = 'm.obj' } obj{ file = 'm.obj', translate = {2, 0, 0} }"
+                                         "ply{ file = 'm.ply', name = 'tile', material = material{ name = 'a' } }",
+                                         folder_.folders());
+  ASSERT_TRUE(reading.scene) << reading.error;
+  ASSERT_EQ(reading.scene->objects.size(), 3u);
+  EXPECT_EQ(reading.scene->objects[0].mesh, reading.scene->objects[1].mesh);
+  EXPECT_EQ(reading.scene->objects[0].materials, reading.scene->objects[1].materials);
+  EXPECT_EQ(reading.scene->objects[2].name, "tile");
+  EXPECT_EQ(reading.scene->materials[reading.scene->objects[2].materials[0]].name, "a");
+}
+
 TEST(ReadScene, ChoosesTheReaderByTheEnding) {
   TemporaryFolder folder;
   std::string obj = folder.write("M.OBJ", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");

@@ -378,4 +378,20 @@ ObjReading read_obj(const std::string& path, const Folders& folders) {
   return parse_obj(path, file.text, folders);
 }
 
+Model model_of_obj(const std::string& path, const Folders& folders) {
+  ObjReading obj = read_obj(path, folders);
+  Model model;
+  model.error = std::move(obj.error);
+  model.warnings = std::move(obj.warnings);
+  if (!obj.mesh) return model;
+  model.materials = std::move(obj.materials);
+  Object object;
+  object.name = path;
+  object.mesh = obj.mesh;
+  for (uint32_t m = 0; m < model.materials.size(); ++m)
+    object.materials.push_back(m);
+  model.objects.push_back(std::move(object));
+  return model;
+}
+
 } // namespace moonshade::renderer

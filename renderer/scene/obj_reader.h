@@ -2,6 +2,7 @@
 #pragma once
 
 #include "renderer/scene/folders.h"
+#include "renderer/scene/mesh_builder.h"
 #include "renderer/scene/scene.h"
 
 #include <memory>
@@ -19,6 +20,9 @@ struct ObjReading {
 };
 
 ObjReading read_obj(const std::string& path, const Folders& folders);
+
+/// As a model of one object.
+Model model_of_obj(const std::string& path, const Folders& folders);
 
 /// The same for a text; `path` names it in messages, and its folder is where material files are looked for.
 ObjReading parse_obj(const std::string& path, std::string_view text, const Folders& folders);

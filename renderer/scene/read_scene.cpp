@@ -2,8 +2,10 @@
 #include "renderer/scene/read_scene.h"
 
 #include "renderer/scene/folders.h"
+#include "renderer/scene/gltf_reader.h"
 #include "renderer/scene/lua_scene.h"
 #include "renderer/scene/obj_reader.h"
+#include "renderer/scene/ply_reader.h"
 
 #include <filesystem>
 
@@ -45,21 +47,15 @@ void add_daylight(Scene& scene) {
   scene.lights.push_back(sun);
 }
 
-static SceneReading scene_of_obj(const std::string& path, const Folders& folders) {
+static SceneReading scene_of_model(const std::string& path, Model model) {
   SceneReading reading;
-  ObjReading obj = read_obj(path, folders);
-  reading.warnings = std::move(obj.warnings);
-  reading.error = std::move(obj.error);
-  if (!obj.mesh) return reading;
+  reading.warnings = std::move(model.warnings);
+  reading.error = std::move(model.error);
+  if (!reading.error.empty()) return reading;
   Scene scene;
   scene.file = path;
-  scene.materials = std::move(obj.materials);
-  Object object;
-  object.name = path;
-  object.mesh = obj.mesh;
-  for (uint32_t m = 0; m < scene.materials.size(); ++m)
-    object.materials.push_back(m);
-  scene.objects.push_back(std::move(object));
+  scene.materials = std::move(model.materials);
+  scene.objects = std::move(model.objects);
   Box bounds = bounds_of(scene);
   if (bounds.radius() < 1e-6f) {
     reading.error = path + ": the model is smaller than a millionth; place it in a scene with a 'scale'";
@@ -75,8 +71,11 @@ static SceneReading read_any(const std::string& path, const Animation& animation
   std::string ending = std::filesystem::path(path).extension().string();
   for (char& c : ending)
     c = char(std::tolower((unsigned char)c));
-  if (ending == ".obj") return scene_of_obj(path, folders);
-  if (ending != ".lua") return {std::nullopt, path + ": neither a Lua scene (.lua) nor a model (.obj)", {}};
+  if (ending == ".obj") return scene_of_model(path, model_of_obj(path, folders));
+  if (ending == ".ply") return scene_of_model(path, read_ply(path));
+  if (ending == ".gltf" || ending == ".glb") return scene_of_model(path, read_gltf(path, folders));
+  if (ending != ".lua")
+    return {std::nullopt, path + ": neither a Lua scene (.lua) nor a model (.obj, .ply, .gltf, .glb)", {}};
   FileText file = read_file(path, uint64_t(64) << 20);
   if (!file.error.empty()) return {std::nullopt, file.error, {}};
   return parse_lua_scene(path, file.text, folders, animation);

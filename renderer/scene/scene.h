@@ -108,11 +108,18 @@ struct Light {
   float rotate = 0; ///< around y, in degrees
 };
 
+enum class CameraKind : uint8_t { Perspective, Orthographic };
+inline constexpr std::string_view kCameraNames[] = {"perspective", "orthographic"};
+
 struct Camera {
+  CameraKind kind = CameraKind::Perspective;
   Vec3 from{0, 1, 5};
   Vec3 to{0};
   Vec3 up{0, 1, 0};
-  float fov = 40; ///< vertical, degrees
+  float fov = 40;     ///< Perspective: vertical, degrees
+  float height = 2;   ///< Orthographic: of what is seen, in world space
+  float aperture = 0; ///< Perspective: diameter of the lens in world space; 0: a pinhole
+  float focus = 0;    ///< distance of the plane in focus, along the axis; 0: that of `to`
 };
 
 enum class IntegratorKind : uint8_t { Path, Whitted };

@@ -92,6 +92,23 @@ Vec3 SceneFields::vector(std::string_view name, const Vec3& otherwise) {
   return value && numbers(name, *value, 3, v) ? Vec3(v[0], v[1], v[2]) : otherwise;
 }
 
+Mat4 SceneFields::matrix(std::string_view name) {
+  Mat4 m(1.0f);
+  const SceneValue* value = find(name);
+  if (!value) return m;
+  const auto* list = std::get_if<SceneValue::List>(&value->value);
+  double v[16] = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1};
+  if (!list || (list->size() != 12 && list->size() != 16))
+    return fail("'" + std::string(name) + "' is a list of 12 or 16 numbers, row by row"), m;
+  if (!numbers(name, *value, list->size(), v)) return m;
+  if (v[12] != 0 || v[13] != 0 || v[14] != 0 || v[15] != 1)
+    fail("the last row of '" + std::string(name) + "' is 0, 0, 0, 1");
+  for (int row = 0; row < 3; ++row)
+    for (int column = 0; column < 4; ++column)
+      m[column][row] = float(v[4 * row + column]);
+  return m;
+}
+
 Vec3 SceneFields::triple(std::string_view name, const Vec3& otherwise) {
   const SceneValue* value = find(name);
   if (value && as_number(*value)) return Vec3(float(number(name, 0)));
@@ -113,8 +130,8 @@ size_t SceneFields::choice(std::string_view name, std::span<const std::string_vi
   return 0;
 }
 
-std::string SceneFields::finish() {
-  if (!call_.items.empty()) fail("takes named fields only: " + join_names(known_));
+std::string SceneFields::finish(bool takes_items) {
+  if (!takes_items && !call_.items.empty()) fail("takes named fields only: " + join_names(known_));
   for (const auto& [name, value] : call_.fields)
     if (std::find(known_.begin(), known_.end(), name) == known_.end()) {
       std::string hint = did_you_mean(name, known_);

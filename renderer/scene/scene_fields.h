@@ -26,6 +26,8 @@ public:
   bool boolean(std::string_view name, bool otherwise);
   std::string text(std::string_view name, const std::string& otherwise = "");
   Vec3 vector(std::string_view name, const Vec3& otherwise);
+  /// Twelve or sixteen numbers, row by row; the identity where the field is absent.
+  Mat4 matrix(std::string_view name);
   /// Three numbers, or one for all of them.
   Vec3 triple(std::string_view name, const Vec3& otherwise);
   /// A triple that is not negative.
@@ -36,8 +38,9 @@ public:
   void require(std::string_view name);
 
   void fail(const std::string& message);
-  /// The first error, or that of a field nobody asked for; empty where all is well.
-  std::string finish();
+  /// The first error, or that of a field nobody asked for (or of what has no name, unless it `takes_items`); empty
+  /// where all is well.
+  std::string finish(bool takes_items = false);
 
 private:
   bool numbers(std::string_view name, const SceneValue& value, size_t count, double* out);

@@ -1,0 +1,19 @@
+// glTF 2.0, as text (.gltf, with its buffers beside it or within) or binary (.glb), by tinygltf: nodes, triangles and
+// the numbers of materials. Images, skins, morph targets and animations are passed over with a warning.
+#pragma once
+
+#include "renderer/scene/folders.h"
+#include "renderer/scene/mesh_builder.h"
+
+#include <string>
+#include <string_view>
+
+namespace moonshade::renderer {
+
+/// Buffers are files of `folders`.
+Model read_gltf(const std::string& path, const Folders& folders);
+
+/// The same for a file's bytes; `path` names it in messages, and its folder is where buffers are looked for.
+Model parse_gltf(const std::string& path, std::string_view bytes, const Folders& folders);
+
+} // namespace moonshade::renderer
