@@ -3,6 +3,7 @@
 
 #include "compiler/codegen/c_interface.h"
 #include "compiler/codegen/codegen.h"
+#include "compiler/codegen/remarks.h"
 #include "compiler/ir/print.h"
 #include "compiler/syntax/ast.h"
 #include "runtime/frontend_parts.h"
@@ -46,6 +47,14 @@ bool CheckedShader::ok() const { return !parts_->diagnostics.has_errors(); }
 const ShaderInfo& CheckedShader::info() const { return parts_->program.info; }
 const Diagnostics& CheckedShader::diagnostics() const { return parts_->diagnostics; }
 const SourceSet& CheckedShader::sources() const { return parts_->sources; }
+
+CompileTimes CheckedShader::times() const {
+  CompileTimes times;
+  times.parse = parts_->parse_milliseconds;
+  times.sema = parts_->sema_milliseconds;
+  times.total = times.parse + times.sema;
+  return times;
+}
 
 ir::Module build_module(const CheckedShader& shader, const CompileOptions& options) {
   ir::Module module = ir::build(shader.parts().program, {options.step_limit});
@@ -94,27 +103,53 @@ codegen::CInterface make_c_interface(const CheckedShader& shader, const ir::Modu
 
 } // namespace
 
+namespace {
+
+/// The text of a stage behind the IR; times of emission and optimisation are those of `generated`.
+std::string generated_bytes(const CheckedShader& shader, const ir::Module& module, Stage stage,
+                            const CompileOptions& options, const std::string& prefix, codegen::Generated& generated) {
+  if (stage == Stage::Llvm) return generated.llvm_text();
+  if (stage == Stage::Assembly) return generated.assembly();
+  const codegen::CInterface interface = make_c_interface(shader, module, generated.info, options, prefix);
+  return stage == Stage::Object ? generated.c_object(interface)
+                                : codegen::c_header(interface, generated.info, version());
+}
+
+} // namespace
+
 Emission emit(const CheckedShader& shader, Stage stage, const CompileOptions& options, const std::string& prefix) {
+  Emission emission;
+  emission.times = shader.times();
   if (stage == Stage::Ast) {
     std::ostringstream text;
     syntax::print_ast(*shader.parts().chunk, text);
-    return {text.str(), ""};
+    emission.bytes = text.str();
+    return emission;
   }
-  if (!shader.ok()) return {"", "the shader has errors"};
+  if (!shader.ok()) {
+    emission.error = "the shader has errors";
+    return emission;
+  }
+  Stopwatch watch;
   const ir::Module module = build_module(shader, options);
-  if (stage == Stage::Ir) return {ir::to_text(module), ""};
-  codegen::Generated generated = codegen::generate(module, codegen_options(options));
-  if (!generated.error.empty()) return {"", generated.error};
-  Emission emission;
-  if (stage == Stage::Llvm) emission.bytes = generated.llvm_text();
-  if (stage == Stage::Assembly) emission.bytes = generated.assembly();
-  if (stage == Stage::Object || stage == Stage::Header) {
-    const codegen::CInterface interface = make_c_interface(shader, module, generated.info, options, prefix);
-    emission.bytes = stage == Stage::Object ? generated.c_object(interface)
-                                            : codegen::c_header(interface, generated.info, version());
+  emission.times.ir = watch.lap();
+  if (stage == Stage::Ir) {
+    emission.bytes = ir::to_text(module);
+  } else {
+    codegen::Generated generated = codegen::generate(module, codegen_options(options));
+    emission.times.emit = generated.times.emit;
+    emission.times.optimize = generated.times.optimize;
+    watch.lap();
+    if (generated.error.empty()) emission.bytes = generated_bytes(shader, module, stage, options, prefix, generated);
+    emission.times.codegen = watch.lap();
+    emission.error = generated.error;
   }
-  emission.error = generated.error;
+  emission.times.total += emission.times.ir + emission.times.emit + emission.times.optimize + emission.times.codegen;
   return emission;
+}
+
+std::string report_remarks(const CheckedShader& shader, const CompileOptions& options, Diagnostics& diagnostics) {
+  return codegen::report_remarks(build_module(shader, options), codegen_options(options), diagnostics);
 }
 
 } // namespace moonshade

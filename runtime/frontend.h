@@ -24,6 +24,7 @@ public:
   const ShaderInfo& info() const;
   const Diagnostics& diagnostics() const;
   const SourceSet& sources() const;
+  CompileTimes times() const; ///< of parse and sema
 
   struct Parts; ///< arena, chunk, sema's program: for the runtime itself
   const Parts& parts() const { return *parts_; }
@@ -40,11 +41,15 @@ enum class Stage { Ast, Ir, Llvm, Assembly, Object, Header };
 
 struct Emission {
   std::string bytes;
-  std::string error; ///< for instance an unknown CPU; empty where there is none
+  CompileTimes times{}; ///< of the stages that it took
+  std::string error;    ///< for instance an unknown CPU; empty where there is none
 };
 /// The text (or object file) of one stage of an `ok()` shader; Ast also of one that is not.
 /// `prefix` begins the names in Object and Header; empty: the file's name.
 Emission emit(const CheckedShader& shader, Stage stage, const CompileOptions& options, const std::string& prefix = {});
+
+/// What the compiler decides of an `ok()` shader (compiler/codegen/remarks.h), as notes. Gives the error.
+std::string report_remarks(const CheckedShader& shader, const CompileOptions& options, Diagnostics& diagnostics);
 
 /// Compiles an already checked shader.
 Compilation compile(const CheckedShader& shader, const CompileOptions& options);

@@ -6,7 +6,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include <chrono>
 #include <cstdio>
 #include <iostream>
 #include <sstream>
@@ -14,8 +13,6 @@
 namespace moonshade::shaderc {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 void report_unreadable(const std::string& path, const std::string& error, Reporter& reporter) {
   SourceSet sources;
@@ -65,17 +62,33 @@ CheckedFile check_file(const std::string& path, const Options& options, Reporter
     report_unreadable(path, file.error, reporter);
     return {nullptr, tools::kInputAtFault};
   }
-  const auto start = Clock::now();
   // The tree is the parser's: what the dialect leaves out has one, too.
   auto shader = options.emit == Stage::Ast ? std::make_unique<CheckedShader>(CheckedShader::parsed(path, file.text))
                                            : std::make_unique<CheckedShader>(path, file.text, options.compile.entries);
-  const std::chrono::duration<double, std::milli> time = Clock::now() - start;
   const std::string missing_entry = only_missing_entry(shader->diagnostics());
   if (missing_entry.empty()) reporter.add(shader->diagnostics(), shader->sources());
-  if (options.time_report) std::fprintf(stderr, "%s: check %.3f ms\n", path.c_str(), time.count());
   if (!missing_entry.empty()) return {nullptr, call_error("--entry: " + missing_entry)};
+  if (options.remarks && shader->ok() && options.emit != Stage::Ast) {
+    Diagnostics remarks;
+    if (const std::string error = report_remarks(*shader, options.compile, remarks); !error.empty())
+      return {nullptr, call_error(error)};
+    reporter.add(remarks, shader->sources());
+  }
   const int status = shader->ok() ? tools::kDone : tools::kInputAtFault;
   return {std::move(shader), status};
+}
+
+void print_times(const std::string& file, const CompileTimes& times) {
+  const auto print = [&](const char* stage, double milliseconds) {
+    if (milliseconds > 0) std::fprintf(stderr, "%s: %s %.3f ms\n", file.c_str(), stage, milliseconds);
+  };
+  print("parse", times.parse);
+  print("sema", times.sema);
+  print("ir", times.ir);
+  print("emit", times.emit);
+  print("optimize", times.optimize);
+  print("codegen", times.codegen);
+  print("total", times.total);
 }
 
 } // namespace moonshade::shaderc

@@ -32,4 +32,7 @@ struct CheckedFile {
 /// Reads and checks the file and reports what is wrong. An --entry that the shader does not have is the call's fault.
 CheckedFile check_file(const std::string& path, const Options& options, Reporter& reporter);
 
+/// --time-report: a line for each stage that was run.
+void print_times(const std::string& file, const CompileTimes& times);
+
 } // namespace moonshade::shaderc

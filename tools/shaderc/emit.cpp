@@ -1,6 +1,7 @@
 // --emit: one stage of the compiler as text or object file.
 #include "compiler/sema/luals.h"
 #include "tools/shaderc/actions.h"
+#include "tools/shaderc/check.h"
 #include "tools/support/exit_status.h"
 #include "tools/support/files.h"
 
@@ -27,6 +28,7 @@ int emit_stage(const CheckedShader& shader, const Options& options) {
   if (!shader.ok() && *options.emit != Stage::Ast) return tools::kInputAtFault;
   const Emission emission = emit(shader, *options.emit, options.compile, options.prefix);
   if (!emission.error.empty()) return call_error(emission.error);
+  if (options.time_report) print_times(options.files[0], emission.times);
   if (const int status = write_output(options, emission.bytes); status != tools::kDone) return status;
   return shader.ok() ? tools::kDone : tools::kInputAtFault;
 }

@@ -22,6 +22,7 @@ int check_files(const Options& options, Reporter& reporter) {
   for (const std::string& file : options.files) {
     const CheckedFile checked = check_file(file, options, reporter);
     status = std::max(status, checked.status);
+    if (options.time_report && checked.shader) print_times(file, checked.shader->times());
     if (options.describe && checked.status == tools::kDone)
       descriptions.push_back(describe(file, checked.shader->info()));
   }

@@ -27,7 +27,7 @@ constexpr const char* kExamples = R"(Examples:
 struct Raw {
   std::string emit, width = "auto", precision = "f32", diagnostics = "text", optimization = "2";
   std::string cache_dir;
-  bool remarks = false, no_cache = false, bake = false;
+  bool no_cache = false, bake = false;
   std::vector<std::string> module_path;
 };
 
@@ -94,6 +94,9 @@ void add_report_options(CLI::App& app, Options& options, Raw& raw) {
       ->option_text("text|json|sarif")
       ->check(CLI::IsMember({"text", "json", "sarif"}))
       ->group(group);
+  app.add_flag("--remarks", options.remarks,
+               "What the compiler decided: width, varying branches and loops, gathers, calls, counted steps")
+      ->group(group);
   app.add_flag("--time-report", options.time_report, "Print the time of each stage on standard error")->group(group);
 }
 
@@ -104,7 +107,6 @@ void add_unavailable_options(CLI::App& app, Raw& raw) {
       ->option_text("DIR")
       ->allow_extra_args(false)
       ->group(group);
-  app.add_flag("--remarks", raw.remarks, "What the optimiser decided")->group(group);
   app.add_option("--cache-dir", raw.cache_dir, "Folder of the object cache")->option_text("DIR")->group(group);
   app.add_flag("--no-cache", raw.no_cache, "Do without the object cache")->group(group);
   app.add_flag("--bake", raw.bake, "Compile parameters as constants")->group(group);
@@ -112,7 +114,7 @@ void add_unavailable_options(CLI::App& app, Raw& raw) {
 
 /// The first option of the call that is not built yet; empty where all are.
 std::string unavailable(const CLI::App& app) {
-  for (const char* name : {"-I", "--remarks", "--cache-dir", "--no-cache", "--bake"})
+  for (const char* name : {"-I", "--cache-dir", "--no-cache", "--bake"})
     if (app.count(name) != 0) return name;
   return "";
 }
@@ -165,7 +167,7 @@ std::string contradiction(const Options& options) {
   if (!options.run && !options.points.empty()) return "--points stands with --run";
   if (!options.run && options.interpret) return "--interpret stands with --run";
   if (options.run && options.compile.entries.size() > 1) return "--run takes one --entry";
-  if (!options.emit && (options.compile.cpu != "native" || !options.compile.target.empty()))
+  if (!options.emit && !options.remarks && (options.compile.cpu != "native" || !options.compile.target.empty()))
     return "--cpu and --target stand with --emit: code for other machines cannot run here";
   for (const std::string& definition : options.definitions)
     if (split_assignment(definition).name.empty()) return "-D takes NAME=VALUE, not '" + definition + "'";

@@ -30,6 +30,7 @@ struct Options {
   DiagnosticFormat diagnostics = DiagnosticFormat::Text;
   bool colour = false;
   bool time_report = false;
+  bool remarks = false;
 };
 
 /// NAME=VALUE taken apart; the name is empty where the text is none.

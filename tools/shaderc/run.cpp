@@ -1,6 +1,7 @@
 // --run: evaluates one entry at one point or at the points of a CSV file, in blocks, so that files of any size stream.
 #include "runtime/interpret.h"
 #include "tools/shaderc/actions.h"
+#include "tools/shaderc/check.h"
 #include "tools/support/csv.h"
 #include "tools/support/exit_status.h"
 #include "tools/support/points.h"
@@ -72,13 +73,6 @@ Ending read_parameters(const ShaderInfo& info, const Options& options, std::map<
   return std::nullopt;
 }
 
-void print_times(const CompileTimes& times) {
-  std::fprintf(
-      stderr,
-      "parse %.3f ms\nsema %.3f ms\nir %.3f ms\nemit %.3f ms\noptimize %.3f ms\ncodegen %.3f ms\ntotal %.3f ms\n",
-      times.parse, times.sema, times.ir, times.emit, times.optimize, times.codegen, times.total);
-}
-
 /// "FILE:LINE:COLUMN: message" in the form of a diagnostic; other errors as the program's own.
 std::string as_diagnostic(const std::string& error, const CheckedShader& checked) {
   const std::string file = std::string(checked.sources().name(0)) + ":";
@@ -93,11 +87,12 @@ Ending instantiate(const CheckedShader& checked, const Options& options, std::sh
   if (const Ending ending = read_parameters(checked.info(), options, parameters)) return ending;
   Instantiation instance;
   if (options.interpret) {
+    if (options.time_report) print_times(options.files[0], checked.times());
     instance = interpret(checked, parameters, {.count_steps = true, .step_limit = options.compile.step_limit});
   } else {
     const Compilation compilation = compile(checked, options.compile);
     if (!compilation.program) return machine_error("the checked shader cannot be compiled\n" + compilation.diagnostics);
-    if (options.time_report) print_times(compilation.program->times());
+    if (options.time_report) print_times(options.files[0], compilation.program->times());
     instance = compilation.program->instantiate(parameters);
   }
   if (!instance.shader) {
