@@ -17,24 +17,6 @@ namespace moonshade::renderer {
 
 namespace {
 
-constexpr std::string_view kFunctions[] = {"camera", "render", "material", "sphere", "rectangle", "plane",   "box",
-                                           "obj",    "ply",    "gltf",     "light",  "group",     "instance"};
-enum Function {
-  kCamera,
-  kRender,
-  kMaterial,
-  kSphere,
-  kRectangle,
-  kPlane,
-  kBox,
-  kObj,
-  kPly,
-  kGltf,
-  kLight,
-  kGroup,
-  kInstance
-};
-
 class SceneBuilder {
 public:
   SceneBuilder(const std::string& path, const Folders& folders) : path_(path), folders_(folders) {
@@ -58,7 +40,7 @@ private:
   void environment(SceneFields& fields, Light& light, const SceneCall& call);
   void light(SceneFields& fields, const SceneCall& call);
   void area_light(SceneFields& fields);
-  void model(SceneFields& fields, Function function);
+  void model(SceneFields& fields, SceneFunction function);
   void group(SceneFields& fields, const SceneCall& call, size_t index);
   void instance(SceneFields& fields);
   void remove_hidden();
@@ -103,16 +85,16 @@ void SceneBuilder::camera(SceneFields& fields) {
   has_camera_ = true;
   Camera& c = scene_.camera;
   fields.require("from");
-  c.from = fields.vector("from", c.from);
-  c.to = fields.vector("to", c.to);
-  c.up = fields.vector("up", c.up);
-  c.kind = CameraKind(fields.choice("type", kCameraNames));
+  c.from = fields.vector("from");
+  c.to = fields.vector("to");
+  c.up = fields.vector("up");
+  c.kind = CameraKind(fields.choice("type"));
   if (c.kind == CameraKind::Perspective) {
-    c.fov = float(fields.number("fov", c.fov, 0.01, 170));
-    c.aperture = float(fields.number("aperture", c.aperture, 0));
-    c.focus = float(fields.number("focus", c.focus, 1e-6));
+    c.fov = float(fields.number("fov"));
+    c.aperture = float(fields.number("aperture"));
+    c.focus = float(fields.number("focus"));
   } else {
-    c.height = float(fields.number("height", c.height, 1e-6));
+    c.height = float(fields.number("height"));
   }
   if (c.from == c.to)
     fields.fail("'from' and 'to' are the same point");
@@ -124,17 +106,17 @@ void SceneBuilder::render(SceneFields& fields) {
   if (has_render_) fields.fail("a scene has one render");
   has_render_ = true;
   Settings& s = scene_.settings;
-  s.width = int(fields.integer("width", s.width, 1, 65536));
-  s.height = int(fields.integer("height", s.height, 1, 65536));
-  s.samples = uint32_t(fields.integer("samples", s.samples, 1, 1 << 24));
-  s.seed = uint32_t(fields.integer("seed", s.seed, 0, UINT32_MAX));
-  s.depth = uint32_t(fields.integer("depth", s.depth, 1, 1024));
-  s.integrator = IntegratorKind(fields.choice("integrator", kIntegratorNames));
-  s.tonemap = Tonemap(fields.choice("tonemap", kTonemapNames));
-  s.exposure = float(fields.number("exposure", s.exposure, -100, 100));
-  s.clamp = float(fields.number("clamp", s.clamp, 0));
-  s.time = fields.number("time", s.time);
-  s.frame = fields.integer("frame", s.frame, INT32_MIN, INT32_MAX);
+  s.width = int(fields.integer("width"));
+  s.height = int(fields.integer("height"));
+  s.samples = uint32_t(fields.integer("samples"));
+  s.seed = uint32_t(fields.integer("seed"));
+  s.depth = uint32_t(fields.integer("depth"));
+  s.integrator = IntegratorKind(fields.choice("integrator"));
+  s.tonemap = Tonemap(fields.choice("tonemap"));
+  s.exposure = float(fields.number("exposure"));
+  s.clamp = float(fields.number("clamp"));
+  s.time = fields.number("time");
+  s.frame = fields.integer("frame");
 }
 
 /// A constant, or the name of a shader file.
@@ -147,10 +129,9 @@ void SceneBuilder::slot(SceneFields& fields, Material& material, Slot slot) {
     return;
   }
   if (info.components == 3)
-    material.values[size_t(slot)] = fields.color(info.name, Vec3(0));
+    material.values[size_t(slot)] = fields.color(info.name);
   else
-    material.values[size_t(slot)] =
-        Vec3(float(fields.number(info.name, 0, slot == Slot::Ior ? 1 : 0, slot == Slot::Ior ? 100 : 1)));
+    material.values[size_t(slot)] = Vec3(float(fields.number(info.name)));
 }
 
 void SceneBuilder::parameters(SceneFields& fields, std::map<std::string, Constant>& parameters) {
@@ -187,7 +168,6 @@ void SceneBuilder::parameters(SceneFields& fields, std::map<std::string, Constan
 }
 
 void SceneBuilder::material(SceneFields& fields, const SceneCall& call, size_t index) {
-  static constexpr std::string_view kBumps[] = {"gradient", "differences", "paper"};
   Material m;
   m.place = place(call);
   m.name = fields.text("name", "material" + std::to_string(scene_.materials.size()));
@@ -195,10 +175,10 @@ void SceneBuilder::material(SceneFields& fields, const SceneCall& call, size_t i
   for (size_t s = 0; s < kSlotCount; ++s)
     slot(fields, m, Slot(s));
   if (std::string name = fields.text("height"); !name.empty()) m.height_shader = file(fields, "height", name);
-  m.bump = BumpMode(fields.choice("bump", kBumps));
-  m.thin = fields.boolean("thin", false);
-  m.absorption = fields.color("absorption", Vec3(0));
-  if (fields.has("average_emission")) m.average_emission = fields.color("average_emission", Vec3(0));
+  m.bump = BumpMode(fields.choice("bump"));
+  m.thin = fields.boolean("thin");
+  m.absorption = fields.color("absorption");
+  if (fields.has("average_emission")) m.average_emission = fields.color("average_emission");
   parameters(fields, m.parameters);
   for (const char* later : {"density", "anisotropy"})
     if (call.fields.contains(later))
@@ -225,8 +205,8 @@ uint32_t SceneBuilder::material_of(SceneFields& fields) {
 }
 
 Mat4 SceneBuilder::placement(SceneFields& fields) {
-  Vec3 scale = fields.triple("scale", Vec3(1)), rotate = fields.vector("rotate", Vec3(0));
-  Mat4 m = glm::translate(Mat4(1.0f), fields.vector("translate", Vec3(0)));
+  Vec3 scale = fields.triple("scale"), rotate = fields.vector("rotate");
+  Mat4 m = glm::translate(Mat4(1.0f), fields.vector("translate"));
   for (int axis = 2; axis >= 0; --axis) {
     Vec3 around(0);
     around[axis] = 1;
@@ -249,7 +229,7 @@ Object SceneBuilder::mesh_object(SceneFields& fields, std::string name, std::sha
 }
 
 /// A file is read once; its objects share their meshes wherever they are placed.
-void SceneBuilder::model(SceneFields& fields, Function function) {
+void SceneBuilder::model(SceneFields& fields, SceneFunction function) {
   fields.require("file");
   std::string name = fields.text("file");
   if (name.empty()) return;
@@ -259,9 +239,9 @@ void SceneBuilder::model(SceneFields& fields, Function function) {
   LoadedModel& loaded = found->second;
   Model& model = loaded.model;
   if (is_new) {
-    model = function == kPly    ? read_ply(path)
-            : function == kGltf ? read_gltf(path, folders_)
-                                : model_of_obj(path, folders_);
+    model = function == SceneFunction::Ply    ? read_ply(path)
+            : function == SceneFunction::Gltf ? read_gltf(path, folders_)
+                                              : model_of_obj(path, folders_);
     reading_.warnings.insert(reading_.warnings.end(), model.warnings.begin(), model.warnings.end());
   }
   if (!model.error.empty()) return fields.fail(model.error);
@@ -313,7 +293,7 @@ void SceneBuilder::group(SceneFields& fields, const SceneCall& call, size_t inde
     scene_.objects[k].to_world = to_world * scene_.objects[k].to_world;
     if (!name.empty()) scene_.objects[k].name = name;
   }
-  if (fields.boolean("hidden", false)) hidden_.insert(objects.begin(), objects.end());
+  if (fields.boolean("hidden")) hidden_.insert(objects.begin(), objects.end());
 }
 
 void SceneBuilder::instance(SceneFields& fields) {
@@ -348,10 +328,10 @@ void SceneBuilder::area_light(SceneFields& fields) {
   m.place = path_;
   m.values[size_t(Slot::Color)] = Vec3(0);
   m.values[size_t(Slot::Ior)] = Vec3(1);
-  m.values[size_t(Slot::Emission)] = fields.color("color", Vec3(1)) * float(fields.number("intensity", 1, 0));
-  m.emits_outward_only = !fields.boolean("two_sided", true);
-  Vec3 center = fields.vector("center", Vec3(0));
-  Vec3 u = fields.vector("u", Vec3(1, 0, 0)), v = fields.vector("v", Vec3(0, 0, 1));
+  m.values[size_t(Slot::Emission)] = fields.color("color") * float(fields.number("intensity"));
+  m.emits_outward_only = !fields.boolean("two_sided");
+  Vec3 center = fields.vector("center");
+  Vec3 u = fields.vector("u"), v = fields.vector("v");
   if (is_black(glm::cross(u, v))) fields.fail("'u' and 'v' span no area");
   Object object;
   object.name = m.name;
@@ -366,7 +346,7 @@ void SceneBuilder::environment(SceneFields& fields, Light& light, const SceneCal
   light.kind = LightKind::Environment;
   light.place = place(call);
   light.name = fields.text("name", "environment");
-  light.rotate = float(fields.number("rotate", 0));
+  light.rotate = float(fields.number("rotate"));
   std::string image = fields.text("image"), shader = fields.text("shader");
   if (image.empty() == shader.empty()) return fields.fail("either 'image' or 'shader' names a file");
   (image.empty() ? light.shader : light.image) =
@@ -375,17 +355,16 @@ void SceneBuilder::environment(SceneFields& fields, Light& light, const SceneCal
 }
 
 void SceneBuilder::light(SceneFields& fields, const SceneCall& call) {
-  static constexpr std::string_view kTypes[] = {"sun", "sky", "point", "area", "spot", "environment"};
   fields.require("type");
-  size_t type = fields.choice("type", kTypes);
+  size_t type = fields.choice("type");
   if (type == 3) return area_light(fields);
   Light light;
-  Vec3 color = fields.color("color", Vec3(1));
-  float intensity = float(fields.number("intensity", 1, 0));
+  Vec3 color = fields.color("color");
+  float intensity = float(fields.number("intensity"));
   if (type == 0) {
     light.kind = LightKind::Sun;
-    light.direction = normalize_or(fields.vector("direction", Vec3(0.6f, 0.8f, 0.5f)), Vec3(0));
-    light.angle = float(fields.number("angle", light.angle, 0, 60));
+    light.direction = normalize_or(fields.vector("direction"), Vec3(0));
+    light.angle = float(fields.number("angle"));
     if (is_black(light.direction)) fields.fail("'direction' has no direction");
   } else if (type == 1) {
     light.kind = LightKind::Sky;
@@ -398,11 +377,11 @@ void SceneBuilder::light(SceneFields& fields, const SceneCall& call) {
   } else {
     light.kind = type == 4 ? LightKind::Spot : LightKind::Point;
     fields.require("position");
-    light.position = fields.vector("position", Vec3(0));
+    light.position = fields.vector("position");
     if (type == 4) {
-      light.direction = normalize_or(fields.vector("to", Vec3(0)) - light.position, Vec3(0));
-      light.angle = float(fields.number("angle", 40, 0.01, 180));
-      light.blend = float(fields.number("blend", light.blend, 0, 1));
+      light.direction = normalize_or(fields.vector("to") - light.position, Vec3(0));
+      light.angle = float(fields.number("angle"));
+      light.blend = float(fields.number("blend"));
       if (is_black(light.direction)) fields.fail("'position' and 'to' are the same point");
     }
   }
@@ -411,71 +390,71 @@ void SceneBuilder::light(SceneFields& fields, const SceneCall& call) {
 }
 
 bool SceneBuilder::apply(const SceneCall& call, size_t index) {
-  SceneFields fields(call, std::string(kFunctions[call.function]), place(call));
+  SceneFields fields(call, scene_functions()[call.function], place(call));
   size_t before = scene_.objects.size();
-  switch (Function(call.function)) {
-  case kCamera:
+  switch (SceneFunction(call.function)) {
+  case SceneFunction::Camera:
     camera(fields);
     break;
-  case kRender:
+  case SceneFunction::Render:
     render(fields);
     break;
-  case kMaterial:
+  case SceneFunction::Material:
     material(fields, call, index);
     break;
-  case kLight:
+  case SceneFunction::Light:
     light(fields, call);
     break;
-  case kObj:
-  case kPly:
-  case kGltf:
-    model(fields, Function(call.function));
+  case SceneFunction::Obj:
+  case SceneFunction::Ply:
+  case SceneFunction::Gltf:
+    model(fields, SceneFunction(call.function));
     break;
-  case kGroup:
+  case SceneFunction::Group:
     group(fields, call, index);
     break;
-  case kInstance:
+  case SceneFunction::Instance:
     instance(fields);
     break;
-  case kSphere: {
+  case SceneFunction::Sphere: {
     Object object;
     object.name = fields.text("name", "sphere");
     object.shape = Shape::Sphere;
-    object.to_world = glm::translate(Mat4(1.0f), fields.vector("center", Vec3(0)));
-    object.radius = float(fields.number("radius", 1, 1e-20));
+    object.to_world = glm::translate(Mat4(1.0f), fields.vector("center"));
+    object.radius = float(fields.number("radius"));
     object.materials = {material_of(fields)};
     place_object(fields, object);
     add(std::move(object));
     break;
   }
-  case kRectangle: {
-    Vec3 u = fields.vector("u", Vec3(1, 0, 0)), v = fields.vector("v", Vec3(0, 0, -1));
+  case SceneFunction::Rectangle: {
+    Vec3 u = fields.vector("u"), v = fields.vector("v");
     if (is_black(glm::cross(u, v))) fields.fail("'u' and 'v' span no area");
-    add(mesh_object(fields, "rectangle", make_rectangle(fields.vector("center", Vec3(0)), u, v)));
+    add(mesh_object(fields, "rectangle", make_rectangle(fields.vector("center"), u, v)));
     break;
   }
-  case kPlane: {
-    Vec3 normal = normalize_or(fields.vector("normal", Vec3(0, 1, 0)), Vec3(0));
+  case SceneFunction::Plane: {
+    Vec3 normal = normalize_or(fields.vector("normal"), Vec3(0));
     if (is_black(normal)) fields.fail("'normal' has no direction"), normal = Vec3(0, 1, 0);
-    float half = 0.5f * float(fields.number("size", 200, 1e-6, 1e6));
+    float half = 0.5f * float(fields.number("size"));
     // u along x where it can be, so that texture coordinates lie as one expects on a floor.
     Vec3 u = normalize_or(Vec3(1, 0, 0) - normal * normal.x, Vec3(0, 0, 1));
     if (std::abs(normal.x) > 0.99f) u = normalize_or(Vec3(0, 0, 1) - normal * normal.z, Vec3(0, 0, 1));
     Vec3 v = glm::cross(normal, u);
-    add(mesh_object(fields, "plane", make_rectangle(fields.vector("point", Vec3(0)), u * half, v * half)));
+    add(mesh_object(fields, "plane", make_rectangle(fields.vector("point"), u * half, v * half)));
     break;
   }
-  case kBox: {
-    Vec3 size = fields.triple("size", Vec3(1));
+  case SceneFunction::Box: {
+    Vec3 size = fields.triple("size");
     if (!(size.x > 0 && size.y > 0 && size.z > 0)) fields.fail("'size' is positive");
-    add(mesh_object(fields, "box", make_box(fields.vector("center", Vec3(0)), size)));
+    add(mesh_object(fields, "box", make_box(fields.vector("center"), size)));
     break;
   }
   }
   std::vector<uint32_t>& made = objects_of_call_[int64_t(index)];
   for (uint32_t k = uint32_t(before); k < scene_.objects.size(); ++k)
     made.push_back(k);
-  reading_.error = fields.finish(call.function == kGroup);
+  reading_.error = fields.finish(SceneFunction(call.function) == SceneFunction::Group);
   return reading_.error.empty();
 }
 
@@ -486,7 +465,8 @@ SceneReading SceneBuilder::build(SandboxRun run) {
   if (!run.error.empty()) return std::move(reading_);
   for (size_t pass = 0; pass < 2; ++pass)
     for (size_t i = 0; i < run.calls.size(); ++i)
-      if ((run.calls[i].function == kMaterial) == (pass == 0) && !apply(run.calls[i], i)) return std::move(reading_);
+      if ((SceneFunction(run.calls[i].function) == SceneFunction::Material) == (pass == 0) && !apply(run.calls[i], i))
+        return std::move(reading_);
   remove_hidden();
   if (scene_.objects.empty()) {
     reading_.error = path_ + ": the scene has no objects";
@@ -503,7 +483,7 @@ SceneReading SceneBuilder::build(SandboxRun run) {
 SceneReading parse_lua_scene(const std::string& path, std::string_view text, const Folders& folders,
                              const Animation& animation) {
   SandboxConstants constants = {{"time", animation.time}, {"frame", animation.frame.value_or(0)}};
-  return SceneBuilder(path, folders).build(run_scene_file(path, text, kFunctions, constants));
+  return SceneBuilder(path, folders).build(run_scene_file(path, text, scene_function_names(), constants));
 }
 
 } // namespace moonshade::renderer

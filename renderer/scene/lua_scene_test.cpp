@@ -2,6 +2,7 @@
 
 #include "renderer/scene/lua_sandbox.h"
 #include "renderer/scene/read_scene.h"
+#include "renderer/scene/scene_fields.h"
 #include "renderer/test_support.h"
 
 #include <gmock/gmock.h>
@@ -168,6 +169,30 @@ TEST_F(LuaScene, PlacesByScaleThenRotationThenTranslation) {
   Vec4 corner = reading.scene->objects[0].to_world * Vec4(0.5f, 0.5f, 0.5f, 1);
   EXPECT_NEAR(corner.x, 9.5f, 1e-5f);
   EXPECT_NEAR(corner.y, 1, 1e-5f);
+}
+
+TEST_F(LuaScene, HasNoFieldWithoutARow) {
+  // Every field of every function with its default, where that is a constant.
+  for (const FunctionInfo& function : scene_functions()) {
+    EXPECT_EQ(find_field(function, "nonsense"), nullptr);
+    for (const FieldInfo& field : function.fields)
+      EXPECT_EQ(find_field(function, field.name, field.only.substr(0, field.only.find(','))), &field) << field.name;
+  }
+  for (const SlotInfo& slot : slot_infos()) {
+    const FieldInfo* field = find_field(scene_function(SceneFunction::Material), slot.name);
+    ASSERT_TRUE(field) << slot.name;
+    EXPECT_EQ(Vec3((*field->otherwise)[0], (*field->otherwise)[1], (*field->otherwise)[2]), slot.default_value);
+  }
+  const Settings standard;
+  SceneReading reading = parse("sphere{} render{} camera{ from = {0, 0, 5} }");
+  ASSERT_TRUE(reading.scene) << reading.error;
+  EXPECT_EQ(reading.scene->settings.width, standard.width);
+  EXPECT_EQ(reading.scene->settings.samples, standard.samples);
+  EXPECT_EQ(reading.scene->settings.depth, standard.depth);
+  EXPECT_EQ(reading.scene->camera.fov, Camera().fov);
+  EXPECT_THAT(error("light{ type = 'sun', angle = 90 }"), HasSubstr("'angle' lies between 0 and 60"));
+  EXPECT_THAT(error("light{ type = 'spot', position = {0, 1, 0}, angle = 190 }"),
+              HasSubstr("'angle' lies between 0.01 and 180"));
 }
 
 TEST_F(LuaScene, HasCamerasOfEveryKind) {

@@ -8,7 +8,20 @@
 namespace moonshade::renderer {
 
 void SceneFields::fail(const std::string& message) {
-  if (error_.empty()) error_ = place_ + ": " + what_ + ": " + message;
+  if (error_.empty()) error_ = place_ + ": " + std::string(function_.name) + ": " + message;
+}
+
+/// A field without a row is our own mistake; it shows in the first scene that has the function.
+const FieldInfo& SceneFields::row(std::string_view name) {
+  static constexpr FieldInfo kNone;
+  const FieldInfo* field = find_field(function_, name, type_);
+  if (!field) fail("the field '" + std::string(name) + "' is not in the reference");
+  return field ? *field : kNone;
+}
+
+Vec3 SceneFields::constant(std::string_view name) {
+  std::array<double, 3> v = row(name).otherwise.value_or(std::array<double, 3>{});
+  return {float(v[0]), float(v[1]), float(v[2])};
 }
 
 const SceneValue* SceneFields::find(std::string_view name) {
@@ -33,7 +46,9 @@ static std::string plain(double value) {
   return text.str();
 }
 
-double SceneFields::number(std::string_view name, double otherwise, double least, double most) {
+double SceneFields::number(std::string_view name, std::optional<double> default_value) {
+  const FieldInfo& info = row(name);
+  const double otherwise = default_value ? *default_value : info.otherwise ? (*info.otherwise)[0] : 0.0;
   const SceneValue* value = find(name);
   if (!value) return otherwise;
   std::optional<double> number = as_number(*value);
@@ -41,20 +56,21 @@ double SceneFields::number(std::string_view name, double otherwise, double least
     fail("'" + std::string(name) + "' is a number");
     return otherwise;
   }
-  if (*number < least || *number > most) {
-    fail("'" + std::string(name) + "' lies between " + plain(least) + " and " + plain(most));
+  if (*number < info.least || *number > info.most) {
+    fail("'" + std::string(name) + "' lies between " + plain(info.least) + " and " + plain(info.most));
     return otherwise;
   }
   return *number;
 }
 
-int64_t SceneFields::integer(std::string_view name, int64_t otherwise, int64_t least, int64_t most) {
-  double value = number(name, double(otherwise), double(least), double(most));
+int64_t SceneFields::integer(std::string_view name) {
+  double value = number(name);
   if (value != std::floor(value)) fail("'" + std::string(name) + "' is an integer");
   return int64_t(value);
 }
 
-bool SceneFields::boolean(std::string_view name, bool otherwise) {
+bool SceneFields::boolean(std::string_view name) {
+  const bool otherwise = constant(name).x != 0;
   const SceneValue* value = find(name);
   if (!value) return otherwise;
   if (auto* b = std::get_if<bool>(&value->value)) return *b;
@@ -63,12 +79,15 @@ bool SceneFields::boolean(std::string_view name, bool otherwise) {
 }
 
 std::string SceneFields::text(std::string_view name, const std::string& otherwise) {
+  row(name);
   const SceneValue* value = find(name);
   if (!value) return otherwise;
   if (auto* s = std::get_if<std::string>(&value->value)) return *s;
   fail("'" + std::string(name) + "' is a string");
   return otherwise;
 }
+
+static constexpr double kMost = FieldInfo().most; // of the numbers of lists, too
 
 bool SceneFields::numbers(std::string_view name, const SceneValue& value, size_t count, double* out) {
   const auto* list = std::get_if<SceneValue::List>(&value.value);
@@ -77,8 +96,8 @@ bool SceneFields::numbers(std::string_view name, const SceneValue& value, size_t
     std::optional<double> number = as_number((*list)[i]);
     ok = number && std::isfinite(*number);
     if (ok) out[i] = *number;
-    if (ok && std::abs(*number) > kGreatest) {
-      fail("'" + std::string(name) + "' lies between " + plain(-kGreatest) + " and " + plain(kGreatest));
+    if (ok && std::abs(*number) > kMost) {
+      fail("'" + std::string(name) + "' lies between " + plain(-kMost) + " and " + plain(kMost));
       return false;
     }
   }
@@ -86,10 +105,10 @@ bool SceneFields::numbers(std::string_view name, const SceneValue& value, size_t
   return ok;
 }
 
-Vec3 SceneFields::vector(std::string_view name, const Vec3& otherwise) {
+Vec3 SceneFields::vector(std::string_view name) {
   const SceneValue* value = find(name);
   double v[3];
-  return value && numbers(name, *value, 3, v) ? Vec3(v[0], v[1], v[2]) : otherwise;
+  return value && numbers(name, *value, 3, v) ? Vec3(v[0], v[1], v[2]) : constant(name);
 }
 
 Mat4 SceneFields::matrix(std::string_view name) {
@@ -109,22 +128,27 @@ Mat4 SceneFields::matrix(std::string_view name) {
   return m;
 }
 
-Vec3 SceneFields::triple(std::string_view name, const Vec3& otherwise) {
+Vec3 SceneFields::triple(std::string_view name, std::optional<Vec3> otherwise) {
   const SceneValue* value = find(name);
-  if (value && as_number(*value)) return Vec3(float(number(name, 0)));
-  return vector(name, otherwise);
+  if (!value) return otherwise ? *otherwise : constant(name);
+  return as_number(*value) ? Vec3(float(number(name))) : vector(name);
 }
 
-Vec3 SceneFields::color(std::string_view name, const Vec3& otherwise) {
+Vec3 SceneFields::color(std::string_view name, std::optional<Vec3> otherwise) {
   Vec3 v = triple(name, otherwise);
   if (v.x < 0 || v.y < 0 || v.z < 0) fail("'" + std::string(name) + "' is not negative");
   return v;
 }
 
-size_t SceneFields::choice(std::string_view name, std::span<const std::string_view> words) {
+size_t SceneFields::choice(std::string_view name) {
+  std::span<const std::string_view> words = row(name).words;
+  if (words.empty()) return 0;
   std::string word = text(name, std::string(words[0]));
   for (size_t i = 0; i < words.size(); ++i)
-    if (words[i] == word) return i;
+    if (words[i] == word) {
+      if (name == "type") type_ = words[i];
+      return i;
+    }
   fail("unknown " + std::string(name) + " '" + word + "'" + did_you_mean(word, words) +
        " (known: " + join_names(words) + ")");
   return 0;

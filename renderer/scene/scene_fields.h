@@ -3,6 +3,7 @@
 
 #include "renderer/math.h"
 #include "renderer/scene/lua_sandbox.h"
+#include "renderer/scene/scene_reference.h"
 
 #include <optional>
 #include <string>
@@ -13,28 +14,26 @@ namespace moonshade::renderer {
 
 class SceneFields {
 public:
-  /// Products of four such numbers (areas squared, scaled sizes) are still finite in float.
-  static constexpr double kGreatest = 1e9;
+  /// `place` names file and line of the call.
+  SceneFields(const SceneCall& call, const FunctionInfo& function, std::string place)
+      : call_(call), function_(function), place_(std::move(place)) {}
 
-  /// `what` names the call in messages ("sphere"), `place` its file and line.
-  SceneFields(const SceneCall& call, std::string what, std::string place)
-      : call_(call), what_(std::move(what)), place_(std::move(place)) {}
-
+  // Each field has a row in the scene's reference, which gives its range, and the default where `otherwise` is not
+  // given.
   bool has(std::string_view name) { return find(name) != nullptr; }
-  double number(std::string_view name, double otherwise, double least = -kGreatest, double most = kGreatest);
-  int64_t integer(std::string_view name, int64_t otherwise, int64_t least, int64_t most);
-  bool boolean(std::string_view name, bool otherwise);
+  double number(std::string_view name, std::optional<double> otherwise = std::nullopt);
+  int64_t integer(std::string_view name);
+  bool boolean(std::string_view name);
   std::string text(std::string_view name, const std::string& otherwise = "");
-  Vec3 vector(std::string_view name, const Vec3& otherwise);
-  /// Twelve or sixteen numbers, row by row; the identity where the field is absent.
+  Vec3 vector(std::string_view name);
   Mat4 matrix(std::string_view name);
   /// Three numbers, or one for all of them.
-  Vec3 triple(std::string_view name, const Vec3& otherwise);
+  Vec3 triple(std::string_view name, std::optional<Vec3> otherwise = std::nullopt);
   /// A triple that is not negative.
-  Vec3 color(std::string_view name, const Vec3& otherwise);
+  Vec3 color(std::string_view name, std::optional<Vec3> otherwise = std::nullopt);
   const SceneValue* find(std::string_view name);
-  /// One of the words; the first where the field is absent.
-  size_t choice(std::string_view name, std::span<const std::string_view> words);
+  /// The index of one of the field's words; 0 where the field is absent.
+  size_t choice(std::string_view name);
   void require(std::string_view name);
 
   void fail(const std::string& message);
@@ -43,10 +42,14 @@ public:
   std::string finish(bool takes_items = false);
 
 private:
+  const FieldInfo& row(std::string_view name);
+  Vec3 constant(std::string_view name);
   bool numbers(std::string_view name, const SceneValue& value, size_t count, double* out);
 
   const SceneCall& call_;
-  std::string what_, place_, error_;
+  const FunctionInfo& function_;
+  std::string place_, error_;
+  std::string_view type_; ///< where the function has types and the field is read
   std::vector<std::string_view> known_;
 };
 

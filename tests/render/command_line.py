@@ -46,6 +46,11 @@ with tempfile.TemporaryDirectory() as folder:
         check(group in help_text, f"--help has no group {group}")
     run("--version", output="moonshade 0.1.0")
 
+    # The reference of scenes is what the program says, and nothing else.
+    reference = os.path.join(scenes, "..", "..", "..", "docs", "scene-reference.md")
+    check(run("--help-scene", output="## camera").stdout == open(reference).read(),
+          "docs/scene-reference.md is not what `moonrender --help-scene` prints")
+
     # Calls at fault.
     run(status=2, error="no scene")
     run(bumpy, status=2, error="no output")

@@ -4,6 +4,7 @@
 
 #include "renderer/film/image_file.h"
 #include "renderer/scene/nearest_name.h"
+#include "renderer/scene/scene_reference.h"
 #include "tools/support/arguments.h"
 #include "tools/support/exit_status.h"
 
@@ -256,13 +257,17 @@ ParsedOptions parse_options(int argc, char** argv) {
   add_render_options(app, given);
   add_long_render_options(app, options, given);
   add_shader_options(app, given);
+  bool help_scene = false;
+  app.add_flag("--help-scene", help_scene, "Print what a scene can say, as Markdown");
   app.preparse_callback([&](size_t) { refuse_what_is_not_there(argc, argv); });
   app.parse_complete_callback([&] {
+    if (help_scene) return;
     if (app.count("--tev") > 0) options.tev = given.tev == "true" ? "" : given.tev;
     convert(given, options);
     check(options);
   });
   if (const auto status = tools::parse_arguments(app, argc, argv, "moonrender")) return {std::nullopt, *status};
+  if (help_scene) return std::cout << renderer::scene_reference(), ParsedOptions{};
   return {options, tools::kDone};
 }
 
