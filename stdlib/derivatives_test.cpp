@@ -35,6 +35,13 @@ double some_argument(Sampler& sampler, const LibraryFunction& row, unsigned para
   if (begins_with(row.symbol, {"noise", "perlin", "turbulence", "fbm"})) return sampler.uniform(-20, 20);
   if (begins_with(row.symbol, {"atan", "math_atan", "mod", "op_mod", "math_fmod", "fract"}))
     return sampler.uniform(-3, 3);
+  if (begins_with(row.symbol,
+                  {"checker", "stripes", "tiles", "brick", "dots", "hexagons", "voronoi", "wood", "marble"}))
+    return parameter == 0                            ? sampler.uniform(-20, 20)
+           : row.symbol == "brick" && parameter == 5 ? sampler.uniform(1.5, 2.5)
+                                                     : sampler.uniform(0.1, 0.3);
+  if (row.symbol == "blackbody") return sampler.uniform(1500, 12000);
+  if (begins_with(row.symbol, {"rgb2", "srgb2", "linear2"})) return sampler.uniform(0.1, 0.95);
   if (begins_with(row.symbol, {"asin", "acos", "math_asin", "math_acos"})) return sampler.uniform(-0.95, 0.95);
   if (begins_with(row.symbol, {"refract"})) return sampler.uniform(-0.6, 0.6);
   if (row.symbol == "clamp") return parameter == 0 ? sampler.uniform(-1, 2) : parameter == 1 ? 0.2 : 0.9;
@@ -163,7 +170,8 @@ TEST(Derivatives, LeaveOutOnlyWhatIsConstant) {
     const std::vector<Column> arguments = some_arguments(sampler, row, Precision::F64);
     for (unsigned i = 0; i < row.parameter_count; ++i) {
       if (!is_number(row.parameters[i]) || library_derivative(row, 1u << i) != nullptr) continue;
-      if (row.name == "hash") continue; // random at every step
+      if (row.name == "hash") continue;                               // random at every step
+      if (row.name == "inverse" || row.name == "transpose") continue; // the compiler's own
       const auto expected = differences(row, arguments, i, 0);
       for (const auto& component : expected)
         for (const double difference : component)

@@ -186,6 +186,31 @@ template <DualLane To, PlainLane From> MS_INLINE To convert(From value) {
 template <DualLane D> MS_INLINE UInt32<D> hash_bits(D x) { return hash_bits(x.v); }
 template <DualLane D> MS_INLINE UInt32<D> lattice(D i) { return lattice(i.v); }
 
+/// The lane of the value alone, and a lane without derivatives made of one.
+template <class L> struct ValueLaneOf {
+  using type = L;
+};
+template <class L, int N> struct ValueLaneOf<Dual<L, N>> {
+  using type = L;
+};
+template <class L> using ValueLane = typename ValueLaneOf<L>::type;
+template <class L> MS_INLINE L without_slope(ValueLane<L> value) {
+  if constexpr (is_dual<L>)
+    return L::of(value);
+  else
+    return value;
+}
+template <class L> MS_INLINE ValueLane<L> value_lane(const L& x) {
+  if constexpr (is_dual<L>)
+    return x.v;
+  else
+    return x;
+}
+template <DualLane D, int N> MS_INLINE D hash(Vec<N, D> v) {
+  using L = typename D::Lane;
+  return D::of(hash(map<N, L>([](const D& x) __attribute__((always_inline)) { return x.v; }, v)));
+}
+
 // Elementary functions ------------------------------------------------------------------------------------------------
 
 /// g where it is finite, else 0: for slopes that become infinite.

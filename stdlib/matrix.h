@@ -78,12 +78,12 @@ template <class L> MS_INLINE L determinant(Mat<3, L> m) { return dot(m[0], cross
 template <class L> MS_INLINE L determinant(Mat<4, L> m) { return determinant_of(minors(m, 0), minors(m, 2)); }
 
 /// Infinite or NaN where the determinant is 0.
-template <PlainLane L> MS_INLINE Mat<3, L> inverse(Mat<3, L> m) {
+template <class L> MS_INLINE Mat<3, L> inverse(Mat<3, L> m) {
   Vec<3, L> r0 = cross(m[1], m[2]), r1 = cross(m[2], m[0]), r2 = cross(m[0], m[1]);
   L scale = constant<L>(1) / dot(m[0], r0);
   return transpose<L>(Mat<3, L>{{r0 * scale, r1 * scale, r2 * scale}});
 }
-template <PlainLane L> MS_INLINE Mat<4, L> inverse(Mat<4, L> m) {
+template <class L> MS_INLINE Mat<4, L> inverse(Mat<4, L> m) {
   Minors<L> upper = minors(m, 0), lower = minors(m, 2);
   L scale = constant<L>(1) / determinant_of(upper, lower);
   // Entry (row, column) of the adjugate: the row's column of m is left out, so three columns a < b < c stay, and of the
@@ -101,31 +101,6 @@ template <PlainLane L> MS_INLINE Mat<4, L> inverse(Mat<4, L> m) {
     return ((row + column) % 2 == 0 ? sum : -sum) * scale;
   });
 }
-/// d(M^-1) = -M^-1 dM M^-1: for an entry (i, j) of M, minus the product of column i and row j of the inverse.
-template <DualLane D, int N> MS_INLINE Mat<N, D> inverse(Mat<N, D> m) {
-  using L = typename D::Lane;
-  Mat<N, L> inverse_value = inverse<L>(map_columns<L>(
-      [](const Vec<N, D>& column) __attribute__((always_inline)) {
-        return map<N, L>([](const D& x) __attribute__((always_inline)) { return x.v; }, column);
-      },
-      m));
-  unsigned active = 0;
-#pragma clang loop unroll(full)
-  for (int j = 0; j < N; ++j)
-    active |= active_of(m[j]);
-  return matrix_of<D, N>([&](int row, int column) __attribute__((always_inline)) {
-    return with_tangents<D>(inverse_value[column][row], active, [&](int k) __attribute__((always_inline)) {
-      L sum = constant<L>(0);
-#pragma clang loop unroll(full)
-      for (int j = 0; j < N; ++j)
-#pragma clang loop unroll(full)
-        for (int i = 0; i < N; ++i)
-          if (m[j][i].on(k)) sum = nmadd(m[j][i].d[k] * inverse_value[i][row], inverse_value[column][j], sum);
-      return sum;
-    });
-  });
-}
-
 // Rotation by an angle in radians, counter-clockwise: of the plane; about an axis, which need not have length 1, seen
 // against it. The zero axis leaves nothing but the cosine.
 template <class L> MS_INLINE Vec<2, L> rotate(Vec<2, L> v, L angle) {

@@ -4,13 +4,18 @@
 // call of it; Signature takes such a type apart. Everything derived from the table is built on these two.
 #pragma once
 
+#include "stdlib/color.h"
 #include "stdlib/fractal.h"
 #include "stdlib/geometry.h"
+#include "stdlib/grain.h"
 #include "stdlib/matrix.h"
 #include "stdlib/noise.h"
 #include "stdlib/numbers.h"
 #include "stdlib/operators.h"
+#include "stdlib/pattern.h"
 #include "stdlib/perlin.h"
+#include "stdlib/sdf.h"
+#include "stdlib/spline.h"
 #include "stdlib/value_type.h"
 
 #include <array>

@@ -272,6 +272,11 @@ ValueId FunctionBuild::arithmetic(const BinaryExpr& expr, const ExpressionFact& 
     defect("an operator without its row of the library");
     return b_.zero(known.type.value);
   }
+  const sema::Type &left_type = fact(*expr.left).type, &right_type = fact(*expr.right).type;
+  if (op == Op::Mul && is_matrix(left_type.value) && (is_matrix(right_type.value) || is_vector(right_type.value))) {
+    const ValueId matrix = evaluate(*expr.left);
+    return matrix_product(matrix, evaluate(*expr.right));
+  }
   const ValueId left = evaluate_as(*expr.left, known.operand_type);
   const ValueId right = evaluate_as(*expr.right, known.operand_type);
   return b_.binary(op, left, right);
@@ -284,9 +289,7 @@ ValueId FunctionBuild::library_operator(const BinaryExpr& expr, const Expression
   // Both operands are evaluated before either is converted or checked: a conversion has no effect, a fault has.
   const ValueId left = evaluate(*expr.left);
   const ValueId right = evaluate(*expr.right);
-  if (is_matrix(known.type.value)) return matrix_product(row, left, right);
-  if (by_component || row.name == "op.mul" || !is_vector(known.type.value))
-    return library_value(row, type, {left, right});
+  if (by_component || !is_vector(known.type.value)) return library_value(row, type, {left, right});
   // A row of numbers alone, for vectors: component after component.
   Values numbers;
   for (uint32_t i = 0; i < component_count(known.type.value); ++i) {
@@ -511,6 +514,7 @@ FunctionBuild::Values FunctionBuild::call_library(const ExpressionFact& known, V
       best = library_value(row, row.results[0], {best, arguments[i]});
     return {best};
   }
+  if (row.name == "transpose") return {transposed(arguments[0])};
   arguments.resize(std::min<size_t>(arguments.size(), row.parameter_count));
   for (size_t i = arguments.size(); i < row.parameter_count; ++i) {
     const bool integer = row.parameters[i] == ValueType::Integer;
@@ -540,19 +544,50 @@ FunctionBuild::Values FunctionBuild::square_numbers(ValueType type, ValueId argu
   return numbers;
 }
 
-/// m * n: each column of n by the row of a vector.
-ValueId FunctionBuild::matrix_product(const LibraryFunction& row, ValueId left, ValueId right) {
-  const unsigned size = matrix_size(b_.type_of(left));
+FunctionBuild::Values FunctionBuild::column_of(ValueId matrix, unsigned column) {
+  const unsigned size = matrix_size(b_.type_of(matrix));
   Values numbers;
+  for (unsigned row = 0; row < size; ++row)
+    numbers.push_back(b_.component(matrix, column * size + row));
+  return numbers;
+}
+
+/// m * v: the columns weighted by the components, summed from the first on.
+ValueId FunctionBuild::matrix_times(ValueId matrix, const Values& vector) {
+  const ValueType type = vector_type(static_cast<unsigned>(vector.size()));
+  ValueId sum = kNone;
+  for (unsigned column = 0; column < vector.size(); ++column) {
+    const ValueId part =
+        b_.binary(Op::Mul, b_.construct(type, column_of(matrix, column)), b_.construct(type, {vector[column]}));
+    sum = sum == kNone ? part : b_.binary(Op::Add, part, sum);
+  }
+  return sum;
+}
+
+/// m * v, and m * n column by column.
+ValueId FunctionBuild::matrix_product(ValueId left, ValueId right) {
+  const unsigned size = matrix_size(b_.type_of(left));
+  const auto part = [&](ValueId value, unsigned i) { return b_.component(value, i); };
+  Values numbers;
+  if (is_vector(b_.type_of(right))) {
+    for (unsigned i = 0; i < size; ++i)
+      numbers.push_back(part(right, i));
+    return matrix_times(left, numbers);
+  }
   for (unsigned column = 0; column < size; ++column) {
-    Values vector;
+    const ValueId product = matrix_times(left, column_of(right, column));
     for (unsigned i = 0; i < size; ++i)
-      vector.push_back(b_.component(right, column * size + i));
-    const ValueId product = b_.call_library(row, row.results[0], {left, b_.construct(row.parameters[1], vector)});
-    for (unsigned i = 0; i < size; ++i)
-      numbers.push_back(b_.component(product, i));
+      numbers.push_back(part(product, i));
   }
   return b_.construct(b_.type_of(left), numbers);
+}
+
+ValueId FunctionBuild::transposed(ValueId matrix) {
+  const unsigned size = matrix_size(b_.type_of(matrix));
+  Values numbers;
+  for (unsigned i = 0; i < size * size; ++i)
+    numbers.push_back(b_.component(matrix, i % size * size + i / size));
+  return b_.construct(b_.type_of(matrix), numbers);
 }
 
 /// Numbers and vectors strung together, or one number for each component.

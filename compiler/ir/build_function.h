@@ -90,7 +90,10 @@ private:
   Values call_specialisation(const sema::ExpressionFact& known, const Values& arguments);
   Values call_library(const sema::ExpressionFact& known, Values arguments);
   Values square_numbers(ValueType type, ValueId argument);
-  ValueId matrix_product(const LibraryFunction& row, ValueId left, ValueId right);
+  Values column_of(ValueId matrix, unsigned column);
+  ValueId matrix_times(ValueId matrix, const Values& vector);
+  ValueId matrix_product(ValueId left, ValueId right);
+  ValueId transposed(ValueId matrix);
   ValueId construct(ValueType type, const Values& arguments);
   ValueId to_integer(const sema::ExpressionFact& known, ValueId argument);
   void assertion(const syntax::Expr& expr, std::span<syntax::Expr* const> args, ValueId condition);

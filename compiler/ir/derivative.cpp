@@ -51,6 +51,7 @@ private:
   void arithmetic(ValueId id);
   void compose(ValueId id);
   void library_call(ValueId id);
+  void inverse(ValueId id);
   void library_call_by_component(ValueId id);
   ValueId differentiate_call(const LibraryFunction& row, unsigned parameters, const std::vector<ValueId>& operands,
                              const std::vector<Tangents>& tangents, std::vector<Tangents>& results);
@@ -441,10 +442,35 @@ ValueId Writer::differentiate_call(const LibraryFunction& row, unsigned paramete
   return made;
 }
 
+/// Of an inverse: d(M^-1) = -M^-1 dM M^-1.
+void Writer::inverse(ValueId id) {
+  copy(id);
+  const ValueId operand = source(id).operands[0];
+  const unsigned size = matrix_size(source(id).type);
+  const auto entry = [&](unsigned row, unsigned column) { return component(values_[id], column * size + row); };
+  for (unsigned k = 0; k < kMaxDirections; ++k) {
+    if (!activity_.values[id].at(0, k)) continue;
+    for (unsigned column = 0; column < size; ++column) {
+      std::vector<ValueId> right(size, kNone); // dM M^-1
+      for (unsigned row = 0; row < size; ++row)
+        for (unsigned i = 0; i < size; ++i)
+          if (const ValueId d = tangent(operand, i * size + row, k); d != kNone)
+            right[row] = sum(right[row], product(entry(i, column), d));
+      for (unsigned row = 0; row < size; ++row) {
+        ValueId slope = kNone;
+        for (unsigned i = 0; i < size; ++i)
+          if (right[i] != kNone) slope = sum(slope, product(entry(row, i), right[i]));
+        if (slope != kNone) set(tangents_[id], column * size + row, k, difference(kNone, slope));
+      }
+    }
+  }
+}
+
 void Writer::library_call(ValueId id) {
   const Instruction& instruction = source(id);
   const bool one_result = instruction.library->result_count == 1;
   if (one_result && !activity_.values[id].any()) return copy(id);
+  if (instruction.library->name == "inverse") return inverse(id);
   if (instruction.library->componentwise && is_vector(instruction.type)) return library_call_by_component(id);
   const std::vector<ValueId> operands = values_of(instruction.operands);
   std::vector<Tangents> tangents(operands.size());

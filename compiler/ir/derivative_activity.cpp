@@ -67,6 +67,13 @@ namespace {
 Activity library_call(const Function& function, const Instruction& call, const FunctionActivity& activity,
                       uint32_t index) {
   Activity result;
+  if (call.library->name == "inverse") { // by the product rule (derivative.cpp)
+    const unsigned count = component_count(call.type);
+    for (unsigned r = 0; r < count; ++r)
+      for (unsigned c = 0; c < count; ++c)
+        result.add_component(r, activity.values[call.operands[0]], c);
+    return result;
+  }
   const LibraryDerivative* derivative =
       library_derivative(*call.library, ActivityAnalysis::active_parameters(call, activity));
   if (derivative == nullptr) return result;

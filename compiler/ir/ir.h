@@ -18,7 +18,7 @@
 // Vectors and matrices work by component; operands of arithmetic have the type of the result (a number beside a vector
 // or matrix is made one by `construct` first).
 //   const.n      a double, rounded to the domain's number
-//   add sub mul neg    integer, number, vector, matrix (by component: the products of the language are "op.mul")
+//   add sub mul neg    integer, number, vector, matrix (by component)
 //   div          number, vector, matrix
 //   fma          a*b + c with one rounding; number, vector; only the `fuse` pass makes it, only for f32
 //   and or xor not     integer (bits) or boolean; both operands are evaluated
@@ -32,8 +32,7 @@
 //   call_library       the exported body of a library function; operands have its parameter types, except for a
 //                componentwise function, where the instruction's type is a vector and each operand is a number or that
 //                vector. More than one result: the value is the first, `result` gives the others.
-//                A matrix times a vector, `%`, `//`, `^`, shifts and comparisons of an integer with a number are
-//                library functions named "op.*"
+//                `%`, `//`, `^`, shifts and comparisons of an integer with a number are library functions named "op.*"
 //   call         runs another function of the module with the operands as arguments and `variables` as its captures.
 //                There is no recursion. The value is the first result, `result` gives the others.
 //   result       result `index` (from 0) of a call or call_library

@@ -74,10 +74,7 @@ Type Walker::matrix_arithmetic(const BinaryExpr& expr, const Type& left, const T
   fact.operand_type = fact.type.value;
   bool fits = false;
   if (is_product && is_matrix(left) && (is_same || is_vector(right))) {
-    // By the row of a vector; of two matrices, for each column of the right one.
     const Type vector = Type::of(vector_type(matrix_size(left.value)));
-    for (const LibraryFunction& row : library_overloads("op.mul"))
-      if (row.parameters[0] == left.value && row.parameters[1] == vector.value) fact.library = &row;
     fact.type = is_same ? left : vector;
     fits = is_same || right == vector;
   } else if (expr.op == BinaryOp::Add || expr.op == BinaryOp::Sub) {

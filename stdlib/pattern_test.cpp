@@ -1,0 +1,203 @@
+// The patterns: exact at width 0, the mean where the footprint is wide, and in between what supersampling sees; cells
+// have one number each, and distances are distances.
+#include "stdlib/geometry.h"
+#include "stdlib/grain.h"
+#include "stdlib/pattern.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <map>
+#include <random>
+
+namespace moonshade::stdlib {
+namespace {
+
+using Vec2 = Vec<2, double>;
+using Vec3 = Vec<3, double>;
+
+struct Sampler {
+  std::mt19937_64 random{3};
+  double uniform(double low, double high) { return low + (high - low) * double(random() >> 11) * 0x1p-53; }
+  Vec2 point() { return {{uniform(-60, 60), uniform(-60, 60)}}; }
+};
+
+/// A pattern of the plane, and how far it may be from the truth: at worst, and as the root of the mean square.
+struct Pattern {
+  const char* name;
+  std::function<double(Vec2, double)> value;
+  double worst, mean_square;
+};
+
+/// Exact ones lie within the noise of the samples; that of 24 x 24 stratified ones grows with the width.
+const Pattern kPatterns[] = {
+    {"checker", [](Vec2 p, double w) { return checker<double>(p, w); }, 0.06, 0.02},
+    {"stripes", [](Vec2 p, double w) { return stripes<double>(p[0], w, 0.3, 0.1); }, 0.06, 0.02},
+    {"tiles", [](Vec2 p, double w) { return tiles<double>(p, w, 0.1, 0.1).first; }, 0.07, 0.02},
+    {"brick stacked", [](Vec2 p, double w) { return brick<double>(p, w, 0.1, 0.0, 0, 2).first; }, 0.08, 0.03},
+    {"brick running", [](Vec2 p, double w) { return brick<double>(p, w, 0.1, 0.1, 0.5, 2).first; }, 0.08, 0.03},
+    {"brick English", [](Vec2 p, double w) { return brick<double>(p, w, 0.1, 0.05, 1, 2).first; }, 0.12, 0.03},
+    {"brick Flemish", [](Vec2 p, double w) { return brick<double>(p, w, 0.1, 0.05, 2, 2).first; }, 0.12, 0.03},
+    {"dots", [](Vec2 p, double w) { return dots<double>(p, w, 0.3).first; }, 0.12, 0.04},
+    {"hexagons", [](Vec2 p, double w) { return hexagons<double>(p, w, 0.1, 0.0).first; }, 0.3, 0.07},
+    {"voronoi", [](Vec2 p, double w) { return voronoi<double, 2>(p, w, 0.05, 1).first; }, 0.4, 0.08},
+    {"voronoi of space", [](Vec2 p, double w) { return voronoi<double, 3>(Vec3{{p[0], p[1], 0.3}}, w, 0.05, 1).first; },
+     0.7, 0.13}, // a plane cuts the borders at an angle: they look wider than they are
+    {"wood", [](Vec2 p, double w) { return wood<double>(Vec3{{p[0], 0.3, p[1]}}, w, 0.4, 0.2); }, 0.35, 0.07},
+    {"marble", [](Vec2 p, double w) { return marble<double>(Vec3{{p[0], 0.3, p[1]}}, w, 0.5); }, 0.5, 0.1},
+};
+
+class Patterns : public testing::TestWithParam<Pattern> {};
+
+TEST_P(Patterns, AreWhatSupersamplingSees) {
+  constexpr int kSide = 24;
+  Sampler sampler;
+  for (const double width : {0.02, 0.1, 0.3, 0.8, 1.5, 4.0}) {
+    double worst = 0, squares = 0;
+    constexpr int kPoints = 120;
+    for (int i = 0; i < kPoints; ++i) {
+      const Vec2 p = sampler.point();
+      double sum = 0;
+      for (int y = 0; y < kSide; ++y)
+        for (int x = 0; x < kSide; ++x) {
+          const auto offset = [&](int k) { return width * ((k + sampler.uniform(0, 1)) / kSide - 0.5); };
+          sum += GetParam().value(Vec2{{p[0] + offset(x), p[1] + offset(y)}}, 0);
+        }
+      const double error = GetParam().value(p, width) - sum / (kSide * kSide);
+      worst = std::max(worst, std::abs(error));
+      squares += error * error;
+    }
+    EXPECT_LT(worst, GetParam().worst) << GetParam().name << " at width " << width;
+    EXPECT_LT(std::sqrt(squares / kPoints), GetParam().mean_square) << GetParam().name << " at width " << width;
+  }
+}
+
+TEST_P(Patterns, StayInRangeAndEndInTheirMean) {
+  Sampler sampler;
+  double sum = 0;
+  constexpr int kPoints = 20000;
+  for (int i = 0; i < kPoints; ++i) {
+    const double value = GetParam().value(sampler.point(), 0);
+    ASSERT_GE(value, 0) << GetParam().name;
+    ASSERT_LE(value, 1) << GetParam().name;
+    sum += value;
+  }
+  for (const double width : {60.0, 1e6, 1e30, double(INFINITY)}) {
+    const double mean = GetParam().value(sampler.point(), width);
+    EXPECT_NEAR(mean, sum / kPoints, 0.02) << GetParam().name << " at width " << width;
+  }
+  for (int i = 0; i < 2000; ++i) {
+    const double value = GetParam().value(sampler.point(), std::exp2(sampler.uniform(-20, 8)));
+    ASSERT_GE(value, -1e-9) << GetParam().name;
+    ASSERT_LE(value, 1 + 1e-9) << GetParam().name;
+  }
+}
+
+/// A narrow footprint changes nothing away from edges, in floats too: no noise from cancellation.
+TEST_P(Patterns, AreThemselvesThroughAVeryNarrowFootprint) {
+  Sampler sampler;
+  int changed = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const Vec2 p = sampler.point();
+    changed += std::abs(GetParam().value(p, 1e-6) - GetParam().value(p, 0)) > 1e-4;
+  }
+  EXPECT_LE(changed, 2) << GetParam().name;
+}
+
+TEST_P(Patterns, GiveNanForNan) {
+  EXPECT_TRUE(std::isnan(GetParam().value(Vec2{{NAN, 0.3}}, 0.1))) << GetParam().name;
+  EXPECT_TRUE(std::isnan(GetParam().value(Vec2{{INFINITY, 0.3}}, 0.1))) << GetParam().name;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Patterns, testing::ValuesIn(kPatterns), [](const auto& info) {
+  std::string name = info.param.name;
+  std::erase(name, ' ');
+  return name;
+});
+
+TEST(Cells, OfBricksAreOneNumberEach) {
+  // By rows and columns of running bond: the number changes where a joint lies between, and nowhere else.
+  Sampler sampler;
+  for (int i = 0; i < 500; ++i) {
+    const Vec2 p = sampler.point();
+    const auto here = brick<double>(p, 0, 0.1, 0, 0.5, 2);
+    const double shift = std::floor(p[1]) - 2 * std::floor(std::floor(p[1]) / 2); // 0 or 1
+    const double column = std::floor((p[0] + shift) / 2), x = column * 2 - shift + 1;
+    const auto middle = brick<double>(Vec2{{x, std::floor(p[1]) + 0.5}}, 0, 0.1, 0, 0.5, 2);
+    EXPECT_EQ(here.second, middle.second);
+    EXPECT_NEAR(middle.third, 0.45, 1e-12);
+    EXPECT_EQ(here.first, here.third > 0 ? 1 : 0) << p[0] << " " << p[1];
+  }
+}
+
+TEST(Cells, OfEveryBondLieWhereTheValueSays) {
+  Sampler sampler;
+  for (const double bond : {0.0, 0.25, 0.5, 1.0, 2.0}) {
+    std::map<double, int> seen;
+    for (int i = 0; i < 4000; ++i) {
+      const auto at = brick<double>(sampler.point(), 0, 0.1, 0, bond, 2);
+      if (std::abs(at.third) > 1e-9) EXPECT_EQ(at.first, at.third > 0 ? 1 : 0) << "bond " << bond;
+      EXPECT_LE(at.third, 0.45 + 1e-12);
+      ++seen[at.second];
+    }
+    EXPECT_GT(seen.size(), 2000u) << "bond " << bond; // of 7200 bricks and more
+  }
+}
+
+TEST(Cells, DistancesAreZeroOnTheEdge) {
+  Sampler sampler;
+  for (int i = 0; i < 1000; ++i) {
+    const Vec2 p = sampler.point();
+    const auto h = hexagons<double>(p, 0, 0.1, 0);
+    if (std::abs(h.third) > 1e-9) EXPECT_EQ(h.first, h.third > 0 ? 1 : 0);
+    const auto d = dots<double>(p, 0, 0.3);
+    EXPECT_EQ(d.first, d.third >= 0 ? 1 : 0);
+    const auto v = voronoi<double, 2>(p, 0, 0.1, 1);
+    if (std::abs(v.third) > 1e-9) EXPECT_EQ(v.first, v.third > 0 ? 1 : 0);
+    const auto t = tiles<double>(p, 0, 0.1, 0);
+    if (std::abs(t.third) > 1e-9) EXPECT_EQ(t.first, t.third > 0 ? 1 : 0);
+  }
+}
+
+/// The nearest border of the plane's cells, by looking at every site around.
+TEST(Cells, BordersOfVoronoiAreTheNearest) {
+  Sampler sampler;
+  for (int i = 0; i < 300; ++i) {
+    const Vec2 p = sampler.point();
+    const double edge = voronoi<double, 2>(p, 0, 0, 1).third;
+    // Nowhere nearer than the border is another cell, and just beyond it is one.
+    const double id = voronoi<double, 2>(p, 0, 0, 1).second;
+    bool beyond = false;
+    for (int k = 0; k < 64; ++k) {
+      const double angle = k * 2 * M_PI / 64;
+      const auto at = [&](double r) {
+        return voronoi<double, 2>(Vec2{{p[0] + r * std::cos(angle), p[1] + r * std::sin(angle)}}, 0, 0, 1).second;
+      };
+      EXPECT_EQ(at(edge * 0.99), id);
+      beyond |= at(edge * 1.05 + 1e-9) != id;
+    }
+    EXPECT_TRUE(beyond);
+  }
+}
+
+TEST(Checker, IsTheParityOfTheFloors) {
+  for (const double x : {-2.0, -1.5, -1.0, 0.0, 0.25, 1.0, 1.5, 2.0})
+    for (const double y : {-1.0, 0.0, 0.5, 1.0, 3.0}) {
+      const double sum = std::floor(x) + std::floor(y);
+      EXPECT_EQ(checker<double>(Vec2{{x, y}}, 0.0), std::abs(std::fmod(sum, 2))) << x << " " << y;
+    }
+}
+
+TEST(FilteredStep, IsTheStepItsRampAndTheirFilter) {
+  EXPECT_EQ(filtered_step(0.0, 0.0, 0.0), 1);
+  EXPECT_EQ(filtered_step(-1e-300, 0.0, 0.0), 0);
+  EXPECT_DOUBLE_EQ(filtered_step(0.1, 1.0, 0.0), 0.6);
+  EXPECT_DOUBLE_EQ(filtered_step(0.1, 0.0, 1.0), 0.6);
+  EXPECT_DOUBLE_EQ(filtered_step(0.0, 0.3, 0.7), 0.5);
+  EXPECT_DOUBLE_EQ(filtered_step(-0.25, 0.5, 0.5), 0.125); // two boxes alike: a triangle's integral
+  EXPECT_EQ(filtered_step(2.0, 1.0, 1.0), 1);
+}
+
+} // namespace
+} // namespace moonshade::stdlib
