@@ -47,7 +47,9 @@ private:
   Object mesh_object(SceneFields& fields, std::string name, std::shared_ptr<const Mesh> mesh);
   /// By `matrix`, `scale`, `rotate` and `translate`, in this order.
   Mat4 placement(SceneFields& fields);
-  void place_object(SceneFields& fields, Object& object) { object.to_world = placement(fields) * object.to_world; }
+  /// Moves an object; places within places must not end beyond what floats hold, or in a point.
+  void move(SceneFields& fields, const Mat4& to_world, Object& object);
+  void place_object(SceneFields& fields, Object& object) { move(fields, placement(fields), object); }
   uint32_t material_of(SceneFields& fields);
   std::string file(SceneFields& fields, std::string_view field, const std::string& name);
   void add(Object object) { scene_.objects.push_back(std::move(object)); }
@@ -219,6 +221,15 @@ Mat4 SceneBuilder::placement(SceneFields& fields) {
   return m * matrix;
 }
 
+void SceneBuilder::move(SceneFields& fields, const Mat4& to_world, Object& object) {
+  object.to_world = to_world * object.to_world;
+  double determinant = std::abs(glm::determinant(DMat4(object.to_world)));
+  bool sound = determinant > 1e-60 && std::isfinite(determinant);
+  for (int column = 0; column < 4; ++column)
+    sound = sound && is_finite(Vec3(object.to_world[column]));
+  if (!sound) fields.fail("'" + object.name + "' lies too far out, or has no extent left");
+}
+
 Object SceneBuilder::mesh_object(SceneFields& fields, std::string name, std::shared_ptr<const Mesh> mesh) {
   Object object;
   object.name = fields.text("name", name);
@@ -260,7 +271,7 @@ void SceneBuilder::model(SceneFields& fields, SceneFunction function) {
   for (const Object& source : model.objects) {
     Object object = source;
     if (!own_name.empty()) object.name = own_name;
-    object.to_world = to_world * object.to_world;
+    move(fields, to_world, object);
     for (uint32_t& slot : object.materials)
       slot = material ? *material : *loaded.first_material + slot;
     add(std::move(object));
@@ -290,7 +301,7 @@ void SceneBuilder::group(SceneFields& fields, const SceneCall& call, size_t inde
   }
   if (call.items.empty()) fields.fail("holds no objects: group{ sphere{...}, box{...}, translate = ... }");
   for (uint32_t k : objects) {
-    scene_.objects[k].to_world = to_world * scene_.objects[k].to_world;
+    move(fields, to_world, scene_.objects[k]);
     if (!name.empty()) scene_.objects[k].name = name;
   }
   if (fields.boolean("hidden")) hidden_.insert(objects.begin(), objects.end());
@@ -310,7 +321,7 @@ void SceneBuilder::instance(SceneFields& fields) {
   Mat4 to_world = placement(fields);
   for (uint32_t k : std::vector<uint32_t>(source->second)) {
     Object object = scene_.objects[k];
-    object.to_world = to_world * object.to_world;
+    move(fields, to_world, object);
     if (!name.empty()) object.name = name;
     if (material) std::fill(object.materials.begin(), object.materials.end(), *material);
     add(std::move(object));

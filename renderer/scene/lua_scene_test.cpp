@@ -241,6 +241,9 @@ TEST_F(LuaScene, GroupsAndInstancesComposeTheirPlaces) {
   EXPECT_EQ(error("instance{ of = {} }"), "s.lua:1: instance: 'of' is what an object's function or group{} gave");
   EXPECT_EQ(error("instance{}"), "s.lua:1: instance: the field 'of' is missing");
   EXPECT_EQ(error("group{ sphere{}, hidden = true }"), "s.lua: the scene has no objects");
+  for (const char* scale : {"1e9", "1e-9"})
+    EXPECT_THAT(error("local g = sphere{} for i = 1, 8 do g = group{ g, scale = " + std::string(scale) + " } end"),
+                HasSubstr("group: 'sphere' lies too far out, or has no extent left"));
   EXPECT_THAT(error("local g = sphere{} for i = 1, 40 do g = group{ g, instance{ of = g } } end"),
               HasSubstr("the scene describes too many things"));
 }

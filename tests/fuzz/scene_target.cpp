@@ -1,6 +1,7 @@
 // The reader of Lua scenes: a scene whose parts refer to each other within bounds, or an error with a place.
 #include "renderer/scene/lua_sandbox.h"
 #include "renderer/scene/lua_scene.h"
+#include "renderer/scene/scene_reference.h"
 #include "tests/fuzz/target.h"
 
 namespace moonshade::renderer {
@@ -10,13 +11,11 @@ using fuzz::require;
 
 /// Would this run for long? The reader's own limits suit people, not a fuzzer that runs it thousands of times a second.
 bool is_short(std::string_view text) {
-  constexpr std::string_view kFunctions[] = {"camera", "render", "material", "sphere", "rectangle",
-                                             "plane",  "box",    "obj",      "light"};
   SandboxLimits limits;
   limits.instructions = 20'000;
   limits.memory_bytes = size_t(8) << 20;
   limits.calls = 1000;
-  const SandboxRun run = run_scene_file("fuzz.lua", text, kFunctions, {{"time", 0}, {"frame", 0}}, limits);
+  const SandboxRun run = run_scene_file("fuzz.lua", text, scene_function_names(), {{"time", 0}, {"frame", 0}}, limits);
   return run.error.find("limit") == std::string::npos && run.error.find("memory") == std::string::npos &&
          run.error.find("too many") == std::string::npos;
 }
