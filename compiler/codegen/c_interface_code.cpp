@@ -261,7 +261,12 @@ std::string add_c_interface(llvm::Module& module, const CInterface& interface, c
   writer.write();
   if (std::string error = link_support(module); !error.empty()) return error;
   for (llvm::Function& function : module) {
-    if (function.isDeclaration()) continue;
+    if (function.isDeclaration()) {
+      // What only this library has, and an object can do without no more than a program with it can.
+      if (function.getName().starts_with("moonshade_") && !function.use_empty())
+        return "the shader calls " + function.getName().str() + ", which an object file cannot bring along";
+      continue;
+    }
     if (!finished.contains(&function)) attributes.apply(function);
     if (writer.visible().contains(function.getName().str())) continue;
     function.setLinkage(llvm::GlobalValue::InternalLinkage);

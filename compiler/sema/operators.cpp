@@ -1,5 +1,6 @@
 // Operators but for `and` and `or`. Integers and numbers follow Lua: `/` and `^` give a number, the other arithmetic of
 // two integers an integer; vectors work by component, a scalar beside one counts for each component.
+#include "compiler/sema/names.h"
 #include "compiler/sema/walker.h"
 
 namespace moonshade::sema {
@@ -192,6 +193,16 @@ Type Walker::bitwise(const BinaryExpr& expr, const Type& left, const Type& right
   return record(expr, std::move(fact));
 }
 
+/// A constant that the parameter's choices do not have: a typing error, probably.
+void Walker::warn_of_choice(const ParameterInfo& parameter, std::string_view constant, Span span) {
+  if (parameter.choices.empty()) return;
+  std::vector<std::string_view> choices;
+  for (const Constant& choice : parameter.choices)
+    if (const auto* text = std::get_if<std::string>(&choice)) choices.push_back(*text);
+  if (std::ranges::find(choices, constant) != choices.end()) return;
+  error(Code::UnknownChoice, span, {parameter.name, std::string(constant), suggestion(nearest(constant, choices))});
+}
+
 /// Of a string parameter and a constant: the parameter remembers the constant, and its value is known by an index.
 Type Walker::parameter_equality(const BinaryExpr& expr, const Type& left, const Type& right) {
   if (left.is_parameter && right.is_parameter) {
@@ -204,6 +215,7 @@ Type Walker::parameter_equality(const BinaryExpr& expr, const Type& left, const 
   std::vector<ParameterInfo>& parameters = context_.program.info.parameters;
   const auto parameter = std::ranges::find(parameters, name, &ParameterInfo::name);
   if (parameter == parameters.end()) return boolean_type(); // an error was reported
+  warn_of_choice(*parameter, constant, (left.is_parameter ? expr.right : expr.left)->span);
   ExpressionFact fact;
   fact.type = boolean_type();
   fact.form = OperatorForm::Parameter;

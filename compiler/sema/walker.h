@@ -72,6 +72,7 @@ private:
   Type binary(const syntax::BinaryExpr& expr);
   Type arithmetic(const syntax::BinaryExpr& expr, const Type& left, const Type& right);
   Type bitwise(const syntax::BinaryExpr& expr, const Type& left, const Type& right);
+  void warn_of_choice(const ParameterInfo& parameter, std::string_view constant, Span span);
   Type parameter_equality(const syntax::BinaryExpr& expr, const Type& left, const Type& right);
   Type equality(const syntax::BinaryExpr& expr, const Type& left, const Type& right);
   Type ordering(const syntax::BinaryExpr& expr, const Type& left, const Type& right);
