@@ -17,12 +17,23 @@ namespace moonshade {
 
 CheckedShader::CheckedShader() : parts_(std::make_unique<Parts>()) {}
 
-CheckedShader::CheckedShader(const std::string& name, const std::string& text, const std::vector<std::string>& entries)
+CheckedShader::CheckedShader(const std::string& name, const std::string& text, const std::vector<std::string>& entries,
+                             const ModuleReader& modules)
     : CheckedShader() {
   parse(name, text);
   if (!ok()) return;
   Stopwatch watch;
-  parts_->program = sema::check(*parts_->chunk, {entries}, parts_->diagnostics);
+  sema::Options options{entries};
+  if (modules)
+    options.load_module = [&](const std::string& module) -> sema::LoadedModule {
+      ModuleText found = modules(module);
+      if (!found.error.empty()) return {nullptr, found.error};
+      const FileId file = parts_->sources.add(found.path, std::move(found.text));
+      syntax::Chunk* chunk = syntax::parse(parts_->sources, file, parts_->arena, parts_->diagnostics);
+      parts_->modules.push_back({module, chunk});
+      return {chunk, ""};
+    };
+  parts_->program = sema::check(*parts_->chunk, options, parts_->diagnostics);
   parts_->sema_milliseconds = watch.lap();
 }
 

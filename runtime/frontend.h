@@ -12,7 +12,8 @@ namespace moonshade {
 /// A parsed and checked shader.
 class CheckedShader {
 public:
-  CheckedShader(const std::string& name, const std::string& text, const std::vector<std::string>& entries = {});
+  CheckedShader(const std::string& name, const std::string& text, const std::vector<std::string>& entries = {},
+                const ModuleReader& modules = {});
   ~CheckedShader();
   CheckedShader(CheckedShader&&) noexcept;
   CheckedShader& operator=(CheckedShader&&) noexcept;

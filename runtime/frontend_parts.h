@@ -16,6 +16,11 @@ struct CheckedShader::Parts {
   Arena arena;
   Diagnostics diagnostics;
   syntax::Chunk* chunk = nullptr;
+  struct Module {
+    std::string name;
+    syntax::Chunk* chunk;
+  };
+  std::vector<Module> modules; ///< that the shader requires, in the order of their loading
   sema::Program program;
   double parse_milliseconds = 0, sema_milliseconds = 0;
 };

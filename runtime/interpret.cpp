@@ -4,6 +4,7 @@
 #include "compiler/base/arena.h"
 #include "compiler/base/diagnostics.h"
 #include "compiler/syntax/parser.h"
+#include "runtime/frontend_parts.h"
 #include "runtime/interpret_state.h"
 #include "runtime/interpret_steps.h"
 
@@ -78,7 +79,7 @@ public:
     std::lock_guard lock(mutex_);
     if (site >= sites_.size()) return {};
     const InterpretFault& fault = sites_[site];
-    return {source_.name, fault.place.line, fault.place.column, fault.message};
+    return {fault.file, fault.place.line, fault.place.column, fault.message};
   }
 
 private:
@@ -105,7 +106,8 @@ private:
   uint32_t add_site(InterpretFault fault) const {
     std::lock_guard lock(mutex_);
     for (size_t i = 0; i < sites_.size(); ++i)
-      if (sites_[i].code == fault.code && sites_[i].place == fault.place && sites_[i].message == fault.message)
+      if (sites_[i].code == fault.code && sites_[i].place == fault.place && sites_[i].file == fault.file &&
+          sites_[i].message == fault.message)
         return uint32_t(i);
     sites_.push_back(std::move(fault));
     return uint32_t(sites_.size() - 1);
@@ -122,8 +124,9 @@ private:
     for (uint64_t row = 0; row < batch.count; ++row) {
       if (batch.fault_codes) batch.fault_codes[row] = uint8_t(FaultCode::Error);
       if (batch.faults)
-        report(*batch.faults, FaultCode::Error, row,
-               [] { return InterpretFault{FaultCode::Error, {}, "no memory for a Lua state"}; });
+        report(*batch.faults, FaultCode::Error, row, [&] {
+          return InterpretFault{FaultCode::Error, source_.files[0].name, {}, "no memory for a Lua state"};
+        });
     }
   }
 
@@ -138,11 +141,17 @@ private:
 Instantiation interpret(const CheckedShader& shader, const std::map<std::string, Constant>& parameters,
                         const InterpretOptions& options) {
   InterpretSource source;
-  source.name = shader.sources().name(0);
-  source.text = without_prologue(std::string(shader.sources().text(FileId{0})));
   const CountedSteps steps = options.count_steps ? CountedSteps::All : CountedSteps::Loops;
   const bool unguarded = !options.count_steps && options.step_limit == 0;
-  source.loaded = unguarded ? source.text : counted_text(source.name, source.text, steps);
+  const auto add = [&](const std::string& module, FileId file) {
+    InterpretSource::File added{module, std::string(shader.sources().name(file)),
+                                without_prologue(std::string(shader.sources().text(file))), ""};
+    added.loaded = unguarded ? added.text : counted_text(added.name, added.text, steps);
+    source.files.push_back(std::move(added));
+  };
+  add("", FileId{0});
+  for (const auto& module : shader.parts().modules)
+    add(module.name, module.chunk->file);
   source.info = shader.info();
   source.step_limit = options.step_limit;
   for (const auto& [name, value] : parameters) {

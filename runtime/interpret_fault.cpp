@@ -60,8 +60,8 @@ LineColumn place_of_fault(std::string_view text, FaultCode code, uint32_t told_l
   return fallback;
 }
 
-std::string describe_top_level_fault(const std::string& file, const InterpretFault& fault) {
-  std::string text = file + ":" + std::to_string(fault.place.line) + ":" + std::to_string(fault.place.column) +
+std::string describe_top_level_fault(const InterpretFault& fault) {
+  std::string text = fault.file + ":" + std::to_string(fault.place.line) + ":" + std::to_string(fault.place.column) +
                      ": the top level faults: " + fault_name(fault.code);
   if (!fault.message.empty()) text += ": " + fault.message;
   return text;

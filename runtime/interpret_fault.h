@@ -13,6 +13,7 @@ namespace moonshade {
 /// How one call of stock Lua ended.
 struct InterpretFault {
   FaultCode code = FaultCode::None;
+  std::string file;
   LineColumn place;
   std::string message; ///< of assert and error
 };
@@ -22,6 +23,6 @@ struct InterpretFault {
 LineColumn place_of_fault(std::string_view text, FaultCode code, uint32_t told_line);
 
 /// "copper.lua:3:7: the top level faults: assert: message".
-std::string describe_top_level_fault(const std::string& file, const InterpretFault& fault);
+std::string describe_top_level_fault(const InterpretFault& fault);
 
 } // namespace moonshade

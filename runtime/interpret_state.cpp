@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <lua.hpp>
 
@@ -16,14 +17,16 @@ namespace moonshade {
 /// What the functions that shaders call leave behind for us.
 struct InterpretState::Record {
   FaultCode code = FaultCode::None;
+  uint32_t file = 0; ///< in InterpretSource::files
   uint32_t line = 0;
   char message[400] = "";
   uint64_t steps_left = 0;
-  bool loads = true; ///< Lua's own compiler takes the file
+  bool loads = true; ///< Lua's own compiler takes the files
+  const InterpretSource* source = nullptr;
 
   void clear() {
     code = FaultCode::None;
-    line = 0;
+    file = line = 0;
     message[0] = 0;
   }
 };
@@ -39,19 +42,24 @@ constexpr char kCheckedTable[] = "moonshade.checked";
 
 Record& record_of(lua_State* lua) { return **static_cast<Record**>(lua_getextraspace(lua)); }
 
-/// The line in the shader that runs, seen from a C function or a message handler; 0 where Lua does not know any more
-/// (a call in tail position).
-uint32_t current_line(lua_State* lua) {
+/// Notes the file and line that run, seen from a C function or a message handler; line 0 where Lua does not know any
+/// more (a call in tail position). Chunks are named by their number among the files.
+void note_place(lua_State* lua, Record& record) {
   lua_Debug frame;
-  for (int level = 0; lua_getstack(lua, level, &frame); ++level)
-    if (lua_getinfo(lua, "l", &frame) && frame.currentline > 0) return uint32_t(frame.currentline);
-  return 0;
+  if (!record.loads) return; // load_file has said which file
+  record.file = record.line = 0;
+  for (int level = 0; lua_getstack(lua, level, &frame); ++level) {
+    if (!lua_getinfo(lua, "Sl", &frame) || frame.currentline <= 0) continue;
+    record.file = uint32_t(std::strtoul(frame.source + 1, nullptr, 10));
+    record.line = uint32_t(frame.currentline);
+    return;
+  }
 }
 
 int raise_fault(lua_State* lua, FaultCode code, const char* message) {
   Record& record = record_of(lua);
   record.code = code;
-  record.line = current_line(lua);
+  note_place(lua, record);
   std::snprintf(record.message, sizeof record.message, "%s", message);
   lua_pushlightuserdata(lua, const_cast<char*>(&kRecorded));
   return lua_error(lua);
@@ -140,7 +148,7 @@ int note_error(lua_State* lua) {
   Record& record = record_of(lua);
   const char* message = lua_type(lua, 1) == LUA_TSTRING ? lua_tostring(lua, 1) : "an error that is no message";
   record.code = classify(message);
-  record.line = current_line(lua);
+  note_place(lua, record);
   std::snprintf(record.message, sizeof record.message, "%s", record.code == FaultCode::Error ? message : "");
   return 1;
 }
@@ -181,6 +189,37 @@ int raw_ipairs(lua_State* lua) {
 
 // ---- the sandbox ---------------------------------------------------------------------------------------------------
 
+void load_file(lua_State* lua, uint32_t file) {
+  const std::string& text = record_of(lua).source->files[file].loaded;
+  char name[16];
+  std::snprintf(name, sizeof name, "=%u", file);
+  if (luaL_loadbufferx(lua, text.data(), text.size(), name, "t") == LUA_OK) return;
+  record_of(lua).loads = false;
+  record_of(lua).file = file;
+  lua_error(lua);
+}
+
+/// As Lua's own: runs the file once, and keeps its first result.
+int require_module(lua_State* lua) {
+  luaL_checkstring(lua, 1);
+  lua_settop(lua, 1);
+  luaL_getsubtable(lua, LUA_REGISTRYINDEX, "moonshade.modules");
+  lua_pushvalue(lua, 1);
+  if (lua_rawget(lua, 2) != LUA_TNIL) return 1;
+  const auto& files = record_of(lua).source->files;
+  for (uint32_t i = 1; i < files.size(); ++i) {
+    if (files[i].module != lua_tostring(lua, 1)) continue;
+    load_file(lua, i);
+    lua_call(lua, 0, 1);
+    if (lua_isnil(lua, -1)) lua_pushboolean(lua, 1);
+    lua_pushvalue(lua, 1);
+    lua_pushvalue(lua, -2);
+    lua_rawset(lua, 2);
+    return 1;
+  }
+  return luaL_error(lua, "there is no module '%s'", lua_tostring(lua, 1));
+}
+
 void set_field(lua_State* lua, int table, const char* name, lua_CFunction function) {
   lua_pushcfunction(lua, function);
   lua_setfield(lua, table, name);
@@ -195,6 +234,7 @@ void open_basics(lua_State* lua) {
   set_field(lua, lua_absindex(lua, -1), "ipairs", raw_ipairs);
   set_field(lua, lua_absindex(lua, -1), "assert", checked_assert);
   set_field(lua, lua_absindex(lua, -1), "error", raise_error);
+  set_field(lua, lua_absindex(lua, -1), "require", require_module);
   set_field(lua, lua_absindex(lua, -1), "print", [](lua_State*) { return 0; });
   lua_rawseti(lua, LUA_REGISTRYINDEX, LUA_RIDX_GLOBALS);
   lua_pop(lua, 1);
@@ -274,6 +314,7 @@ bool InterpretState::load(std::string& error) {
     return false;
   }
   *static_cast<Record**>(lua_getextraspace(lua_)) = record_.get();
+  record_->source = &source_;
   lua_pushcfunction(lua_, note_error);
   // Everything that can raise an error, out of memory included, happens inside a protected call.
   lua_pushcfunction(lua_, [](lua_State* lua) {
@@ -288,9 +329,7 @@ bool InterpretState::load(std::string& error) {
       push_constant(lua, value);
       override_parameter(lua, name.c_str());
     }
-    const std::string& text = source.loaded;
-    record_of(lua).loads = luaL_loadbufferx(lua, text.data(), text.size(), "=shader", "t") == LUA_OK;
-    if (!record_of(lua).loads) return lua_error(lua);
+    load_file(lua, 0);
     lua_call(lua, 0, 0);
     lua_settop(lua, 0);
     luaL_checkstack(lua, int(source.info.entries.size()), "too many entry points");
@@ -303,14 +342,15 @@ bool InterpretState::load(std::string& error) {
   if (protected_call(lua_, 1, LUA_MULTRET) == LUA_OK) return lua_checkstack(lua_, 200);
   // What the parser takes and Lua does not exceeds one of Lua's capacities (locals, upvalues, nesting).
   if (!record_->loads)
-    error = source_.name + ": stock Lua cannot load this file: " + record_->message;
+    error = source_.files[record_->file].name + ": stock Lua cannot load this file: " + record_->message;
   else
-    error = describe_top_level_fault(source_.name, last_fault());
+    error = describe_top_level_fault(last_fault());
   return false;
 }
 
 InterpretFault InterpretState::last_fault() const {
-  return {record_->code, place_of_fault(source_.text, record_->code, record_->line), record_->message};
+  const InterpretSource::File& file = source_.files[record_->file < source_.files.size() ? record_->file : 0];
+  return {record_->code, file.name, place_of_fault(file.text, record_->code, record_->line), record_->message};
 }
 
 FaultCode InterpretState::call(size_t index, const Batch& batch, uint64_t row) {

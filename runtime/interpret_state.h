@@ -16,9 +16,13 @@ namespace moonshade {
 
 /// What a Lua state is made from; shared by the states of one shader, never changed.
 struct InterpretSource {
-  std::string name;   ///< the file's, for messages
-  std::string text;   ///< as written, without a first line that Lua's loader of files skips
-  std::string loaded; ///< what Lua is given: the text, with counted steps where they are to be counted
+  struct File {
+    std::string module; ///< for `require`; empty for the shader itself
+    std::string name;   ///< the file's, for messages
+    std::string text;   ///< as written, without a first line that Lua's loader of files skips
+    std::string loaded; ///< what Lua is given: the text, with counted steps where they are to be counted
+  };
+  std::vector<File> files; ///< the shader first, then what it requires
   ShaderInfo info;
   std::map<std::string, Constant> parameters; ///< overrides, checked
   uint64_t step_limit = 0;

@@ -227,7 +227,7 @@ Compilation compile(const CheckedShader& shader, const CompileOptions& options) 
 }
 
 Compilation compile(const std::string& name, const std::string& text, const CompileOptions& options) {
-  return compile(CheckedShader(name, text, options.entries), options);
+  return compile(CheckedShader(name, text, options.entries, options.modules), options);
 }
 
 unsigned native_width(Precision precision) { return codegen::native_width(precision); }

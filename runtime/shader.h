@@ -16,6 +16,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -36,10 +37,23 @@ struct Gradient {
 std::string gradient_name(const Gradient& gradient);
 
 /// How to compile. The defaults suit rendering on this machine.
+/// The text of a module that a shader requires, or why there is none.
+struct ModuleText {
+  std::string path; ///< for messages
+  std::string text;
+  std::string error; ///< empty where it was found
+};
+/// Finds modules by their names ("patterns.stone"). Called while a shader is checked, once for each name.
+using ModuleReader = std::function<ModuleText(const std::string& name)>;
+/// Looks for patterns/stone.lua in these folders, in this order. Nothing outside of them is read.
+ModuleReader folder_modules(std::vector<std::string> folders);
+
 struct CompileOptions {
   Precision precision = Precision::F32;
   /// Lanes: 1, 4, 8, 16 or 32; 0 = the best for the target.
   unsigned width = 0;
+  /// For `require`; empty: there are no modules.
+  ModuleReader modules;
   /// As clang's -O0 to -O3.
   int optimization = 2;
   /// "native" or a CPU name of LLVM's; other than native only for emitting text.

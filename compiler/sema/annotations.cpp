@@ -121,10 +121,11 @@ public:
   explicit Checker(Context& context) : context_(context) {}
 
   void check() {
-    for (const Function* function : context_.chunk.functions) {
-      function_ = function;
-      block(*function->body);
-    }
+    for (const Chunk* chunk : context_.chunks())
+      for (const Function* function : chunk->functions) {
+        function_ = function;
+        block(*function->body);
+      }
   }
 
 private:

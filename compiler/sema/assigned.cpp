@@ -4,6 +4,7 @@
 //
 // What a function reads of outer variables before assigning them is a requirement on its callers, who check it.
 #include "compiler/sema/context.h"
+#include "compiler/sema/modules.h"
 
 #include <algorithm>
 #include <functional>
@@ -54,13 +55,16 @@ public:
   Flow(Context& context, Work& work) : context_(context), work_(work) {}
 
   void run() {
+    for (size_t i = 0; is_top() && i < context_.modules.size(); ++i)
+      call(module_call(i), context_.modules[i].required);
     block(*work_.function->body);
-    if (state_.is_reachable && !is_top() && !work_.results.empty())
+    if (state_.is_reachable && work_.function->parent != nullptr && !work_.results.empty())
       context_.error(Code::MissingReturn, work_.function->end_span).note(Code::NoteOtherReturn, work_.first_return);
     const State exit = merge(exit_, state_);
     work_.never_returns = !exit.is_reachable;
     for (const auto& [variable, number] : numbers_)
-      if (exit.has(number) && (is_top() || !is_own(variable))) work_.assigns_always.push_back(variable);
+      if (exit.has(number) && (work_.function->parent == nullptr || !is_own(variable)))
+        work_.assigns_always.push_back(variable);
     std::ranges::sort(work_.assigns_always, std::less<>());
   }
 
@@ -113,7 +117,9 @@ private:
   /// A variable of a call that has ended and left the function as its result.
   static bool is_outlived(const Work& callee, const void* variable) {
     for (const Work* frame = callee.parent; frame != nullptr; frame = frame->parent)
-      if (frame->frame_home != nullptr && frame->variables.contains(static_cast<const Local*>(variable))) return true;
+      if (frame->parent != nullptr && frame->frame_home != nullptr &&
+          frame->variables.contains(static_cast<const Local*>(variable)))
+        return true;
     return false;
   }
 

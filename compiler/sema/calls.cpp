@@ -124,6 +124,7 @@ TypeList Walker::call_function(const CallExpr& expr, const Type& called, TypeLis
 
 TypeList Walker::call_library(const CallExpr& expr, std::string_view name) {
   if (name == "param") return parameter(expr);
+  if (name == "require") return require_module(expr);
   if (name == "assert" || name == "error") return assert_or_error(expr, name == "assert");
   if (name == "vec2" || name == "vec3" || name == "vec4" || name == "rgb") return construct(expr, name);
   if (name == "mat3" || name == "mat4") return construct_matrix(expr, name);

@@ -3,6 +3,7 @@
 #include "compiler/sema/annotations.h"
 #include "compiler/sema/context.h"
 #include "compiler/sema/entries.h"
+#include "compiler/sema/modules.h"
 #include "compiler/sema/warnings.h"
 
 namespace moonshade::sema {
@@ -15,15 +16,16 @@ void check_uncalled(Context& context) {
   context.specialise_unknown = true;
   while (!context.exhausted) {
     std::vector<Work*> roots;
-    for (const syntax::Function* function : context.chunk.functions) {
-      if (context.walked[function->index] != nullptr || function->parent == nullptr) continue;
-      Work* parent = context.walked[function->parent->index];
-      if (parent == nullptr) continue;
-      Work* work = context.find_or_make(
-          {function, parent, false, nullptr, 0, std::vector<Type>(function->params.size())}, function->span);
-      if (work == nullptr) return;
-      roots.push_back(work);
-    }
+    for (const syntax::Chunk* chunk : context.chunks())
+      for (const syntax::Function* function : chunk->functions) {
+        if (context.walked.contains(function) || function->parent == nullptr) continue;
+        const auto parent = context.walked.find(function->parent);
+        if (parent == context.walked.end()) continue;
+        Work* work = context.find_or_make(
+            {function, parent->second, false, nullptr, 0, std::vector<Type>(function->params.size())}, function->span);
+        if (work == nullptr) return;
+        roots.push_back(work);
+      }
     if (roots.empty()) return;
     context.infer(roots);
     context.report_walk(roots);
@@ -46,15 +48,17 @@ Program check(const syntax::Chunk& chunk, const Options& options, Diagnostics& d
   Program program;
   program.chunk = &chunk;
   Context context(chunk, diagnostics, program);
-  context.globals = collect_globals(chunk);
   Work* top = context.find_or_make({chunk.main, nullptr, true, nullptr, 0, {}}, chunk.main->span);
   context.top = top;
+  collect_modules(context, options);
+  if (diagnostics.has_errors() && !context.modules.empty()) return program; // the syntax of a module, perhaps
   std::vector<EntryPlan> plans = plan_entries(context, options.entries);
 
   std::vector<Work*> chosen = {top}, others;
   for (EntryPlan& plan : plans) {
-    plan.work =
-        context.find_or_make({plan.global->function, top, false, nullptr, 0, plan.inputs}, plan.global->definition);
+    plan.work = context.find_or_make(
+        {plan.global->function, context.top_level_of(*plan.global->function), false, nullptr, 0, plan.inputs},
+        plan.global->definition);
     if (plan.work == nullptr) return program;
     (plan.is_selected ? chosen : others).push_back(plan.work);
   }
@@ -73,7 +77,12 @@ Program check(const syntax::Chunk& chunk, const Options& options, Diagnostics& d
   check_uncalled(context);
   check_typed(context);
   if (!diagnostics.has_errors()) check_annotations(context);
-  if (!diagnostics.has_errors()) check_warnings(chunk, program, diagnostics);
+  for (const Context::Module& module : context.modules) {
+    program.info.modules.push_back(module.name);
+    program.modules.push_back(module.work->spec);
+  }
+  for (const syntax::Chunk* each : context.chunks())
+    if (!diagnostics.has_errors()) check_warnings(*each, program, diagnostics);
   return program;
 }
 

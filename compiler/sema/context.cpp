@@ -15,8 +15,28 @@ size_t WorkKeyHash::operator()(const WorkKey& key) const {
   return hash;
 }
 
-Context::Context(const syntax::Chunk& c, Diagnostics& d, Program& p)
-    : chunk(c), diagnostics(d), program(p), walked(c.functions.size()) {}
+Context::Context(const syntax::Chunk& c, Diagnostics& d, Program& p) : chunk(c), diagnostics(d), program(p) {}
+
+std::vector<const syntax::Chunk*> Context::chunks() const {
+  std::vector<const syntax::Chunk*> all = {&chunk};
+  for (const Module& module : modules)
+    all.push_back(module.chunk);
+  return all;
+}
+
+const Context::Module* Context::find_module(std::string_view name) const {
+  const auto found = std::ranges::find(modules, name, &Module::name);
+  return found == modules.end() ? nullptr : &*found;
+}
+
+Work* Context::top_level_of(const syntax::Function& function) const {
+  const syntax::Function* at = &function;
+  while (at->parent != nullptr)
+    at = at->parent;
+  for (const Module& module : modules)
+    if (module.chunk->main == at) return module.work;
+  return top;
+}
 
 Work* Context::find_or_make(WorkKey key, Span place) {
   if (const auto found = works.find(key); found != works.end()) return found->second.get();
@@ -84,7 +104,8 @@ Table* Context::table_of(Work& work, const void* syntax, unsigned which, Span sp
   if (table == nullptr) {
     program.tables.push_back(std::make_unique<Table>());
     table = program.tables.back().get();
-    table->maker = table->owner = &work;
+    table->maker = &work;
+    table->owner = residence(&work);
     table->span = span;
   }
   return table;
@@ -106,7 +127,7 @@ namespace {
 
 std::string specialisation_name(Context& context, const Work& work) {
   std::string name(work.function->name);
-  if (work.function == context.chunk.main) name = "top level";
+  if (work.function->parent == nullptr) name = &work == context.top ? "top level" : "module";
   if (name.empty()) name = "function";
   const unsigned count = ++context.name_counts[name];
   return count == 1 ? name : name + "#" + std::to_string(count);
@@ -123,7 +144,7 @@ void open_specialisation(Context& context, Work& work) {
     work.spec->id = static_cast<uint32_t>(context.program.specialisations.size());
     context.program.specialisations.push_back(std::move(work.owned));
   }
-  Work*& walked = context.walked[work.function->index];
+  Work*& walked = context.walked[work.function];
   if (walked == nullptr) walked = &work;
 }
 

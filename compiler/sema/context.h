@@ -114,11 +114,19 @@ struct Context {
   Program& program;
   Globals globals;
   Work* top = nullptr; ///< the top level
+  /// A file that is required, and its top level.
+  struct Module {
+    std::string name;
+    const syntax::Chunk* chunk = nullptr;
+    Span required{}; ///< first
+    Work* work = nullptr;
+  };
+  std::deque<Module> modules; ///< in the order in which they run
 
   std::unordered_map<WorkKey, std::unique_ptr<Work>, WorkKeyHash> works;
   std::vector<Work*> in_order; ///< of being made: hash tables have no order of their own
-  /// A reporting walk of each function, for those nested in it; null: not walked yet.
-  std::vector<Work*> walked;
+  /// A reporting walk of each function, for those nested in it.
+  std::unordered_map<const syntax::Function*, Work*> walked;
   std::unordered_map<const Variable*, uint32_t> globals_of; ///< variables of the top level: index in Program::globals
   /// Functions whose results are tables of their own, or functions that capture variables of theirs.
   std::set<const syntax::Function*> makers;
@@ -149,6 +157,14 @@ struct Context {
   Diagnostic silent; ///< takes the notes of messages that are not reported
 
   Context(const syntax::Chunk& c, Diagnostics& d, Program& p);
+
+  /// The shader's file and its modules.
+  std::vector<const syntax::Chunk*> chunks() const;
+  const Module* find_module(std::string_view name) const;
+  /// The top level of the file in which a function stands.
+  Work* top_level_of(const syntax::Function& function) const;
+  /// In whose call that lives which one call hands over to another: what files make lives as long as the shader.
+  Work* residence(Work* work) const { return work->function->parent == nullptr ? top : work; }
 
   /// The specialisation, made where it is new; null where there are too many.
   Work* find_or_make(WorkKey key, Span place);

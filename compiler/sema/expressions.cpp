@@ -158,7 +158,7 @@ Type Walker::global_name(const NameExpr& expr) {
     if (global->is_broken) return unknown_type();
     if (global->function != nullptr) {
       fact.name = NameKind::Function;
-      fact.type = function_type(global->function, context_.top);
+      fact.type = function_type(global->function, context_.top_level_of(*global->function));
       return record(expr, std::move(fact));
     }
     fact.type = global->variable.type;

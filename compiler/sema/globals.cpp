@@ -13,7 +13,8 @@ namespace {
 
 class Collector {
 public:
-  explicit Collector(Globals& globals) : globals_(globals) {}
+  Collector(Globals& globals, std::vector<const CallExpr*>& require_calls)
+      : globals_(globals), require_calls_(require_calls) {}
 
   void block(const Block& block, bool certain) {
     const Block* const around = std::exchange(block_, &block);
@@ -107,6 +108,9 @@ private:
                        expression(index.key);
                      },
                      [&](const CallExpr& call) {
+                       const auto* name = try_as<NameExpr>(call.callee);
+                       if (name != nullptr && name->is_global() && name->name == "require")
+                         require_calls_.push_back(&call);
                        expression(call.callee);
                        expressions(call.args);
                      },
@@ -201,6 +205,7 @@ public:
 
 private:
   Globals& globals_;
+  std::vector<const CallExpr*>& require_calls_;
   unsigned function_depth_ = 0;
   const Block* block_ = nullptr;
   Path path_;
@@ -215,12 +220,10 @@ private:
 
 } // namespace
 
-Globals collect_globals(const Chunk& chunk) {
-  Globals globals;
-  Collector collector(globals);
+void collect_globals(const Chunk& chunk, Globals& globals, std::vector<const CallExpr*>& calls) {
+  Collector collector(globals, calls);
   collector.block(*chunk.main->body, true);
   collector.mark_used();
-  return globals;
 }
 
 } // namespace moonshade::sema

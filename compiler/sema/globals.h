@@ -44,6 +44,7 @@ struct Globals {
 
 /// Globals that stand for a function but are defined more than once, or only on some paths, are marked as broken; the
 /// walk refuses their definitions.
-Globals collect_globals(const syntax::Chunk& chunk);
+/// `calls` gets the calls of `require` in the chunk, in order.
+void collect_globals(const syntax::Chunk& chunk, Globals& globals, std::vector<const syntax::CallExpr*>& calls);
 
 } // namespace moonshade::sema

@@ -53,7 +53,6 @@ constexpr RefusedName kRefusedNames[] = {
     {"_VERSION", Code::LibraryLeftOut, "it is Lua 5.4"},
     {"math.random", Code::RandomNumbers, ""},
     {"math.randomseed", Code::RandomNumbers, ""},
-    {"require", Code::NotAvailableYet, "modules ('require') are"},
     {"ipairs", Code::LibraryLeftOut, "it stands in 'for i, v in ipairs(array)' alone"},
     {"print", Code::NotAvailableYet, "'print' is"},
     {"texture", Code::NotAvailableYet, "images ('texture') are"},
@@ -77,9 +76,9 @@ constexpr std::string_view kPlannedFunctions[] = {
     "math.type",   "math.ult",
 };
 
-constexpr std::array<std::string_view, 15> kBuiltIn = {
-    "vec2",       "vec3",      "vec4",           "rgb",       "mat3",     "mat4",  "param", "assert", "error",
-    "math.floor", "math.ceil", "math.tointeger", "math.type", "gradient", "fwidth"};
+constexpr std::array<std::string_view, 16> kBuiltIn = {
+    "vec2",   "vec3",  "vec4",       "rgb",       "mat3",           "mat4",      "param",    "require",
+    "assert", "error", "math.floor", "math.ceil", "math.tointeger", "math.type", "gradient", "fwidth"};
 
 constexpr LibraryConstant kConstants[] = {
     {"math.pi", false, std::numbers::pi, 0},

@@ -20,6 +20,7 @@
 #include "stdlib/library.h"
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <set>
 #include <string>
@@ -164,6 +165,7 @@ enum class CallKind : uint8_t {
   Gradient,       ///< gradient(f, p): `callee` or, where that is null, `library`, of one parameter, by it
   Fwidth,         ///< fwidth(f, p, fw): the length of that, times the magnitude of fw
   Ipairs,         ///< ipairs(t), of a `for` alone
+  Require,        ///< require "name": the module has run
 };
 
 /// Where a slot is found at run time.
@@ -248,6 +250,8 @@ struct EntryPoint {
 
 struct Program {
   const syntax::Chunk* chunk = nullptr;
+  /// The top levels of the modules that it requires, in the order in which they run, all before its own.
+  std::vector<Specialisation*> modules;
   ShaderInfo info;
   std::vector<std::unique_ptr<Specialisation>> specialisations;
   std::vector<GlobalSlot> globals;
@@ -256,8 +260,17 @@ struct Program {
   std::vector<EntryPoint> entries;
 };
 
+/// A module's syntax; or, where there is none, the reason.
+struct LoadedModule {
+  const syntax::Chunk* chunk = nullptr;
+  std::string error;
+};
+
 struct Options {
   std::vector<std::string> entries; ///< only these; empty: all
+  /// Finds and parses the module of a name, "patterns.stone", for `require`; asked once for each. Syntax errors go to
+  /// the same diagnostics.
+  std::function<LoadedModule(const std::string& name)> load_module = {};
 };
 
 /// Checks `chunk`. Reports every refusal; the program is meaningful only where no error was reported.

@@ -12,6 +12,7 @@ using Code = DiagnosticCode;
 void Walker::function_body() {
   const Function& function = *work_.function;
   work_.has_open_return = false;
+  if (&work_ == context_.top) run_modules();
   if (function.is_vararg && !at_top_level()) error(Code::Varargs, function.vararg_span);
   for (size_t i = 0; i < function.params.size(); ++i)
     declare(*function.params[i], i < work_.arguments.size() ? work_.arguments[i] : unknown_type(),
@@ -447,7 +448,10 @@ std::string count_of_values(size_t count) {
 
 void Walker::return_values(const ReturnStat& stat) {
   const TypeList list = expression_list(stat.values);
-  if (at_top_level()) return; // what the file returns nobody reads
+  if (at_top_level()) {
+    if (&work_ != context_.top) return_from_module(stat, list); // what the shader's own file returns nobody reads
+    return;
+  }
   join_results(stat, list);
   if (work_.site != nullptr || work_.caller == nullptr || !context_.makers.contains(work_.function)) return;
   // From the next round on each call has a specialisation of its own.

@@ -370,8 +370,8 @@ void Walker::escape(Table& table) {
   Table* outermost = &table;
   while (outermost->outer != nullptr)
     outermost = outermost->outer;
-  if (outermost->owner == &work_ && leaves_call()) {
-    outermost->owner = work_.site;
+  if (outermost->owner == &work_ && work_.function->parent != nullptr && leaves_call()) {
+    outermost->owner = context_.residence(work_.site);
     context_.changed = true;
   }
   for (const Table::Field* field : table.fields)
@@ -384,7 +384,7 @@ void Walker::escape(const Type& type) {
   for (Work* frame = type.frame; frame != nullptr; frame = frame->parent) {
     const Work* home = frame->frame_home != nullptr ? frame->frame_home : frame;
     if (home != &work_ || !leaves_call()) continue;
-    frame->frame_home = work_.site;
+    frame->frame_home = context_.residence(work_.site);
     context_.changed = true;
   }
 }

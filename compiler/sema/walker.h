@@ -115,6 +115,11 @@ private:
   bool takes_derivative_arguments(const syntax::CallExpr& expr, std::string_view name, const TypeList& args);
   bool is_free_of_effects(const syntax::Expr& function, const Work& callee, std::string_view name);
 
+  // ---- modules.cpp
+  void run_modules();
+  TypeList require_module(const syntax::CallExpr& expr);
+  void return_from_module(const syntax::ReturnStat& stat, const TypeList& list);
+
   // ---- parameters.cpp
   TypeList parameter(const syntax::CallExpr& expr);
   std::string_view constant_name(const syntax::Expr& expr);
@@ -156,7 +161,7 @@ private:
 
   // ---- shared
   Variable& variable_of(const syntax::Local& local);
-  bool at_top_level() const { return work_.function == context_.chunk.main; }
+  bool at_top_level() const { return work_.function->parent == nullptr; }
   Type record(const syntax::Expr& expr, ExpressionFact fact);
   Type record(const syntax::Expr& expr, const Type& type);
   Diagnostic& error(DiagnosticCode code, Span span, std::initializer_list<std::string> args = {}) {

@@ -7,6 +7,7 @@
 #include "runtime/frontend.h"
 #include "runtime/interpret.h"
 
+#include <filesystem>
 #include <sstream>
 #include <utility>
 
@@ -40,7 +41,9 @@ ShaderFile& RuntimeShaders::open(const std::string& file) {
   if (!is_new) return shader;
   FileText text = read_file(file, uint64_t(64) << 20);
   if (!text.error.empty()) return shader.error = text.error, shader;
-  shader.checked = std::make_unique<CheckedShader>(file, text.text);
+  shader.checked =
+      std::make_unique<CheckedShader>(file, text.text, std::vector<std::string>{},
+                                      folder_modules({std::filesystem::path(file).parent_path().string()}));
   std::ostringstream messages;
   print_text(shader.checked->diagnostics(), shader.checked->sources(), messages, options_.color_diagnostics);
   if (!shader.checked->ok()) return shader.error = messages.str(), shader;

@@ -317,7 +317,7 @@ private:
 } // namespace
 
 std::string check_agreement(const std::string& name, const std::string& text, const Directives& directives) {
-  const CheckedShader checked(name, text);
+  const CheckedShader checked(name, text, {}, modules_beside(name));
   if (!checked.ok()) {
     std::ostringstream messages;
     print_text(checked.diagnostics(), checked.sources(), messages);

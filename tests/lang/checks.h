@@ -4,9 +4,16 @@
 #include "runtime/frontend.h"
 #include "tests/lang/directives.h"
 
+#include <filesystem>
 #include <string>
 
 namespace moonshade::lang_test {
+
+/// Modules stand in the program's folder or the one above.
+inline ModuleReader modules_beside(const std::string& name) {
+  const std::filesystem::path folder = std::filesystem::path(name).parent_path();
+  return folder_modules({folder.string(), (folder / "..").string()});
+}
 
 /// Stock Lua and every variant of compiled code agree, and with what the program expects.
 std::string check_agreement(const std::string& name, const std::string& text, const Directives& directives);

@@ -1,5 +1,5 @@
-// lang_test [--refused|--malformed] FILE.lua...: runs test programs (README.md); prints what is wrong and exits 1 where something
-// is.
+// lang_test [--refused|--malformed] FILE.lua...: runs test programs (README.md); prints what is wrong and exits 1 where
+// something is.
 #include "tests/lang/checks.h"
 #include "tools/support/files.h"
 

@@ -9,6 +9,7 @@ from lang_format import LangTest
 
 config.name = "lang"
 config.suffixes = [".lua"]
+config.excludes = ["modules"]  # what the others require
 config.test_format = LangTest()
 config.test_source_root = os.path.dirname(__file__)
 config.test_exec_root = lit_config.params["out"]

@@ -46,13 +46,13 @@ std::string check_refusal(const std::string& name, const std::string& text, cons
   if (directives.errors.empty()) return "the program expects no error\n";
   const std::string syntax = lua_syntax_error(text);
   if (!syntax.empty()) return "stock Lua does not take it either: " + syntax + "\n";
-  return compare_diagnostics(CheckedShader(name, text), Severity::Error, directives.errors);
+  return compare_diagnostics(CheckedShader(name, text, {}, modules_beside(name)), Severity::Error, directives.errors);
 }
 
 std::string check_malformed(const std::string& name, const std::string& text, const Directives& directives) {
   if (directives.errors.empty()) return "the program expects no error\n";
   if (lua_syntax_error(text).empty()) return "stock Lua takes it\n";
-  return compare_diagnostics(CheckedShader(name, text), Severity::Error, directives.errors);
+  return compare_diagnostics(CheckedShader(name, text, {}, modules_beside(name)), Severity::Error, directives.errors);
 }
 
 } // namespace moonshade::lang_test

@@ -25,7 +25,7 @@ bool wanted(const Options& options, const std::string& entry) {
 int measure_file(const std::string& path, const Options& options, std::vector<Row>& rows) {
   FileText file = read_file(path);
   if (!file.error.empty()) return fail(kInputAtFault, "cannot read '" + path + "': " + file.error);
-  const CheckedShader shader(path, std::move(file.text));
+  const CheckedShader shader(path, std::move(file.text), {}, tools::modules_of(path));
   print_text(shader.diagnostics(), shader.sources(), std::cerr, isatty(STDERR_FILENO));
   if (!shader.ok()) return kInputAtFault;
   const auto& entries = shader.info().entries;

@@ -63,8 +63,10 @@ CheckedFile check_file(const std::string& path, const Options& options, Reporter
     return {nullptr, tools::kInputAtFault};
   }
   // The tree is the parser's: what the dialect leaves out has one, too.
-  auto shader = options.emit == Stage::Ast ? std::make_unique<CheckedShader>(CheckedShader::parsed(path, file.text))
-                                           : std::make_unique<CheckedShader>(path, file.text, options.compile.entries);
+  auto shader = options.emit == Stage::Ast
+                    ? std::make_unique<CheckedShader>(CheckedShader::parsed(path, file.text))
+                    : std::make_unique<CheckedShader>(path, file.text, options.compile.entries,
+                                                      tools::modules_of(path, options.module_path));
   const std::string missing_entry = only_missing_entry(shader->diagnostics());
   if (missing_entry.empty()) reporter.add(shader->diagnostics(), shader->sources());
   if (!missing_entry.empty()) return {nullptr, call_error("--entry: " + missing_entry)};

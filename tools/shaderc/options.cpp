@@ -28,7 +28,6 @@ struct Raw {
   std::string emit, width = "auto", precision = "f32", diagnostics = "text", optimization = "2";
   std::string cache_dir;
   bool no_cache = false, bake = false;
-  std::vector<std::string> module_path;
 };
 
 void add_output_options(CLI::App& app, Options& options, Raw& raw) {
@@ -68,6 +67,11 @@ void add_compile_options(CLI::App& app, Options& options, Raw& raw) {
       ->option_text("NAME")
       ->allow_extra_args(false)
       ->group(group);
+  app.add_option("-I", options.module_path, "Folder of modules for require, after the shader's own (repeatable)")
+      ->option_text("DIR")
+      ->allow_extra_args(false)
+      ->check(CLI::ExistingDirectory)
+      ->group(group);
   app.add_option("--precision", raw.precision, "Of numbers (default f32)")
       ->option_text("f32|f64")
       ->check(CLI::IsMember({"f32", "f64"}))
@@ -103,10 +107,6 @@ void add_report_options(CLI::App& app, Options& options, Raw& raw) {
 /// What the contract names and is not built yet.
 void add_unavailable_options(CLI::App& app, Raw& raw) {
   const char* group = "Not available yet";
-  app.add_option("-I", raw.module_path, "Module path for require")
-      ->option_text("DIR")
-      ->allow_extra_args(false)
-      ->group(group);
   app.add_option("--cache-dir", raw.cache_dir, "Folder of the object cache")->option_text("DIR")->group(group);
   app.add_flag("--no-cache", raw.no_cache, "Do without the object cache")->group(group);
   app.add_flag("--bake", raw.bake, "Compile parameters as constants")->group(group);
@@ -114,7 +114,7 @@ void add_unavailable_options(CLI::App& app, Raw& raw) {
 
 /// The first option of the call that is not built yet; empty where all are.
 std::string unavailable(const CLI::App& app) {
-  for (const char* name : {"-I", "--cache-dir", "--no-cache", "--bake"})
+  for (const char* name : {"--cache-dir", "--no-cache", "--bake"})
     if (app.count(name) != 0) return name;
   return "";
 }

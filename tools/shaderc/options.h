@@ -12,6 +12,8 @@
 namespace moonshade::shaderc {
 
 struct Options {
+  /// Folders of modules, after the shader's own.
+  std::vector<std::string> module_path;
   std::vector<std::string> files;
   CompileOptions compile;
   std::vector<std::string> definitions; ///< NAME=VALUE of -D

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstring>
 #include <fcntl.h>
+#include <filesystem>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -80,6 +81,13 @@ std::string write_file(const std::string& path, const std::string& bytes) {
   if (!error.empty()) unlink(temporary.c_str());
   set_file_to_delete(nullptr);
   return error;
+}
+
+ModuleReader modules_of(const std::string& shader, const std::vector<std::string>& folders) {
+  std::vector<std::string> all;
+  if (shader != "-") all.push_back(std::filesystem::path(shader).parent_path().string());
+  all.insert(all.end(), folders.begin(), folders.end());
+  return folder_modules(std::move(all));
 }
 
 } // namespace moonshade::tools

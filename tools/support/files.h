@@ -1,7 +1,10 @@
 // Files read and written whole.
 #pragma once
 
+#include "runtime/shader.h"
+
 #include <string>
+#include <vector>
 
 namespace moonshade::tools {
 
@@ -15,5 +18,8 @@ FileText read_file(const std::string& path);
 /// Writes to a temporary file beside `path` and renames it: the file is there whole or not at all. "-" is standard
 /// output. Gives the error, or an empty text.
 std::string write_file(const std::string& path, const std::string& bytes);
+
+/// Where a shader's modules are looked for: in its own folder, then in these.
+ModuleReader modules_of(const std::string& shader, const std::vector<std::string>& folders = {});
 
 } // namespace moonshade::tools

@@ -1,0 +1,56 @@
+// Modules as files below some folders. A name has letters, digits, '_' and '-' between its dots (sema sees to that), so
+// a path cannot climb; links that lead outside are not followed.
+#include "runtime/shader.h"
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <system_error>
+
+namespace moonshade {
+
+namespace {
+
+constexpr uintmax_t kMaxModuleBytes = uintmax_t(16) << 20;
+
+bool lies_below(const std::filesystem::path& file, const std::filesystem::path& folder) {
+  const auto relative = file.lexically_relative(folder);
+  return !relative.empty() && *relative.begin() != "..";
+}
+
+ModuleText read_module(const std::filesystem::path& path, const std::filesystem::path& folder) {
+  std::error_code error;
+  const std::filesystem::path real = std::filesystem::canonical(path, error);
+  if (!error && !lies_below(real, std::filesystem::canonical(folder, error)))
+    return {path.string(), "", "'" + path.string() + "' leads outside of the module path"};
+  if (!std::filesystem::is_regular_file(real, error)) return {path.string(), "", "'" + path.string() + "' is no file"};
+  if (std::filesystem::file_size(real, error) > kMaxModuleBytes)
+    return {path.string(), "", "'" + path.string() + "' is larger than 16 MiB"};
+  std::ifstream in(real, std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  if (!in) return {path.string(), "", "'" + path.string() + "' cannot be read"};
+  return {path.string(), text.str(), ""};
+}
+
+} // namespace
+
+ModuleReader folder_modules(std::vector<std::string> folders) {
+  return [folders = std::move(folders)](const std::string& name) -> ModuleText {
+    std::string file = name;
+    for (char& c : file)
+      if (c == '.') c = '/';
+    file += ".lua";
+    std::string looked;
+    for (const std::string& folder : folders) {
+      const std::filesystem::path path = std::filesystem::path(folder.empty() ? "." : folder) / file;
+      std::error_code error;
+      if (std::filesystem::exists(path, error))
+        return read_module(path.lexically_normal(), folder.empty() ? "." : folder);
+      looked += (looked.empty() ? "" : ", ") + ("'" + path.lexically_normal().string() + "'");
+    }
+    return {"", "", "looked for " + looked};
+  };
+}
+
+} // namespace moonshade

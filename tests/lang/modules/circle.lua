@@ -1,0 +1,2 @@
+local other = require "modules.round"
+return { x = other.x }

@@ -1,0 +1,2 @@
+local other = require "modules.circle"
+return { x = other.x }
