@@ -115,6 +115,7 @@ void Walker::return_from_module(const ReturnStat& stat, const TypeList& list) {
   const Type& type = list.types[0];
   if (!is_unknown(type) && !is_table(type) && !is_function(type)) {
     type_error(Code::ModuleResult, stat.values[0]->span, {describe(type)});
+    work_.has_open_return = true;
     return;
   }
   join_results(stat, {{type}, false});
@@ -125,7 +126,7 @@ TypeList Walker::require_module(const CallExpr& expr) {
     expression(*arg);
   const Context::Module* module = context_.find_module(module_name(expr));
   if (module == nullptr || !module->work->has_results) {
-    if (module != nullptr && context_.report && module->work->is_done)
+    if (module != nullptr && context_.report && module->work->is_done && !module->work->has_open_return)
       error(Code::ModuleResult, expr.span, {"nothing"});
     return {{}, true};
   }
