@@ -118,7 +118,10 @@ constexpr std::string_view kTypeNames[] = {"boolean", "integer", "number", "vec2
 
 class Checker {
 public:
-  explicit Checker(Context& context) : context_(context) {}
+  explicit Checker(Context& context) : context_(context) {
+    for (const Work* work : context.in_order)
+      if (work->spec != nullptr) works_[work->function].push_back(work);
+  }
 
   void check() {
     for (const Chunk* chunk : context_.chunks())
@@ -231,8 +234,10 @@ private:
 
   /// Calls `visitor` for what the function was specialised to, until it gives true.
   template <class Visitor> void for_each_work(const Function& function, Visitor visitor) {
-    for (const Work* work : context_.in_order)
-      if (work->function == &function && work->spec != nullptr && visitor(*work)) return;
+    const auto works = works_.find(&function);
+    if (works == works_.end()) return;
+    for (const Work* work : works->second)
+      if (visitor(*work)) return;
   }
 
   /// Reports the difference, if there is one.
@@ -258,6 +263,7 @@ private:
   }
 
   Context& context_;
+  std::unordered_map<const Function*, std::vector<const Work*>> works_;
   const Function* function_ = nullptr;
 };
 
