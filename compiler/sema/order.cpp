@@ -72,9 +72,10 @@ private:
     const auto callee = work_.callees.find(expr.id);
     if (callee == work_.callees.end()) return effects;
     for (const Variable* variable : callee->second.work->captures)
-      effects.uses.insert({variable, {variable->slot->name, expr.span}});
+      if (variable->slot != nullptr) // else there is an error about it
+        effects.uses.insert({variable, {variable->slot->name, expr.span}});
     for (const Variable* variable : callee->second.work->outer_writes)
-      effects.writes.insert({variable, {variable->slot->name, expr.span}});
+      if (variable->slot != nullptr) effects.writes.insert({variable, {variable->slot->name, expr.span}});
     return effects;
   }
 

@@ -7,6 +7,7 @@
 #include "compiler/sema/walker.h"
 
 #include <algorithm>
+#include <set>
 
 namespace moonshade::sema {
 
@@ -366,7 +367,12 @@ bool Walker::leaves_call() {
   return false;
 }
 
-void Walker::escape(Table& table) {
+void Walker::escape(const Type& type) {
+  std::set<const Work*> seen;
+  escape(type, seen);
+}
+
+void Walker::escape(Table& table, std::set<const Work*>& seen) {
   Table* outermost = &table;
   while (outermost->outer != nullptr)
     outermost = outermost->outer;
@@ -375,17 +381,23 @@ void Walker::escape(Table& table) {
     context_.changed = true;
   }
   for (const Table::Field* field : table.fields)
-    escape(type_of(*field));
+    escape(type_of(*field), seen);
 }
 
-void Walker::escape(const Type& type) {
-  if (is_table(type)) escape(*type.table);
+/// A function takes along what it captures: variables, and the tables and functions that those stand for.
+void Walker::escape(const Type& type, std::set<const Work*>& seen) {
+  if (is_table(type)) escape(*type.table, seen);
   if (type.kind != Type::Kind::Function) return;
-  for (Work* frame = type.frame; frame != nullptr; frame = frame->parent) {
+  for (Work* frame = type.frame; frame != nullptr && seen.insert(frame).second; frame = frame->parent) {
     const Work* home = frame->frame_home != nullptr ? frame->frame_home : frame;
-    if (home != &work_ || !leaves_call()) continue;
-    frame->frame_home = context_.residence(work_.site);
-    context_.changed = true;
+    if (home == &work_ && leaves_call()) {
+      frame->frame_home = context_.residence(work_.site);
+      context_.changed = true;
+    } else if (work_.site == nullptr || home != context_.residence(work_.site)) {
+      continue;
+    }
+    for (const auto& [local, variable] : frame->variables)
+      if (variable.is_captured) escape(variable.type, seen);
   }
 }
 

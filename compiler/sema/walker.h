@@ -7,6 +7,7 @@
 
 #include <initializer_list>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 
@@ -63,7 +64,8 @@ private:
   /// A result, or part of one: what it refers to outlives this call.
   bool leaves_call();
   void escape(const Type& type);
-  void escape(Table& table);
+  void escape(const Type& type, std::set<const Work*>& seen);
+  void escape(Table& table, std::set<const Work*>& seen);
   std::string describe_shape(const Table& table) const;
 
   // ---- operators.cpp
