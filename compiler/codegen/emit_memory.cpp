@@ -145,6 +145,25 @@ void FunctionEmitter::store_global(ir::GlobalId global, const Lanes& lanes) {
     builder.CreateStore(to_memory(builder, domain_, type, lanes.parts[c]), global_pointer(global, c));
 }
 
+void FunctionEmitter::store_data() {
+  for (ir::GlobalId id = 0; id < owner_.module.globals.size(); ++id) {
+    const ir::Global& global = owner_.module.globals[id];
+    if (!global.has_data()) continue;
+    llvm::Type* element = domain_.memory(global.type);
+    std::vector<llvm::Constant*> values;
+    for (const int64_t integer : global.integers)
+      values.push_back(llvm::ConstantInt::get(element, static_cast<uint64_t>(integer)));
+    for (const double number : global.numbers)
+      values.push_back(llvm::ConstantFP::get(element, number));
+    auto* type = llvm::ArrayType::get(element, values.size());
+    auto* data = new llvm::GlobalVariable(owner_.llvm_module, type, true, llvm::GlobalValue::PrivateLinkage,
+                                          llvm::ConstantArray::get(type, values), "data." + global.name);
+    const llvm::Align align(domain_.memory_size(global.type));
+    data->setAlignment(align);
+    builder.CreateMemCpy(global_pointer(id, 0), align, data, align, values.size() * domain_.memory_size(global.type));
+  }
+}
+
 /// Of the element `index` (clamped), for one value or for each lane.
 llvm::Value* FunctionEmitter::global_element_pointer(ir::GlobalId global, llvm::Value* index, unsigned component) {
   const ValueType type = owner_.module.globals[global].type;

@@ -117,6 +117,8 @@ public:
   bool can_abort() const { return abort_block_ != nullptr; }
   bool has_overflow() const { return overflow_block_ != nullptr; }
   /// Where the instance's constants and the block's faults are; to be told before anything is emitted.
+  /// Fills the globals that have data: the first thing that init does.
+  void store_data();
   void set_environment(llvm::Value* constants, FaultState faults) {
     constants_ = constants;
     faults_ = faults;

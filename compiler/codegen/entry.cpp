@@ -220,6 +220,7 @@ void emit_init(ModuleEmitter& owner, const std::string& symbol) {
   builder.CreateStore(builder.getInt8(kRunning), state.flag);
   emitter.set_environment(function->getArg(0), state);
   const ir::Function& code = owner.module.functions[owner.module.init];
+  emitter.store_data();
   emitter.call_in_place(owner.module.init, ir::entry_signature(code, std::vector<bool>(code.parameters.size(), true)),
                         {}, {});
   if (emitter.masks.open()) builder.CreateRetVoid();

@@ -24,12 +24,29 @@ Function declare(const sema::Specialisation& specialisation) {
   return function;
 }
 
+/// Constants in the type of the global; an integer among numbers is one.
+void fill(Global& global, const std::vector<Constant>& data) {
+  for (const Constant& constant : data) {
+    if (const auto* vector = std::get_if<std::vector<double>>(&constant)) {
+      global.numbers.insert(global.numbers.end(), vector->begin(), vector->end());
+    } else if (global.type == ValueType::Boolean) {
+      global.integers.push_back(std::get<bool>(constant) ? 1 : 0);
+    } else if (global.type == ValueType::Integer) {
+      global.integers.push_back(std::get<int64_t>(constant));
+    } else {
+      const auto* integer = std::get_if<int64_t>(&constant);
+      global.numbers.push_back(integer != nullptr ? static_cast<double>(*integer) : std::get<double>(constant));
+    }
+  }
+}
+
 void declare_globals(ModuleBuild& shared) {
   const sema::Program& program = shared.program;
   shared.parameters.assign(program.info.parameters.size(), kNone);
   for (const sema::GlobalSlot& slot : program.globals) {
     const auto id = static_cast<GlobalId>(shared.module.globals.size());
     Global global{.name = slot.name, .type = slot.type, .count = slot.count};
+    if (slot.data != nullptr) fill(global, *slot.data);
     if (slot.parameter != kNone && program.info.parameters[slot.parameter].type == slot.type) {
       global.parameter = slot.parameter;
       shared.parameters[slot.parameter] = id;
@@ -121,6 +138,7 @@ void FunctionBuild::store_globals() {
   for (GlobalId id = 0; id < shared_.program.globals.size(); ++id) {
     const sema::GlobalSlot& global = shared_.program.globals[id];
     if (shared_.module.globals[id].parameter != kNone) continue; // filled by the host
+    if (global.slot == nullptr) continue;                        // data
     const VariableId variable = variable_of(*global.slot);
     if (global.count == 1) {
       b_.store_global(id, b_.load(variable));

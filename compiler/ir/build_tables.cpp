@@ -64,7 +64,7 @@ void FunctionBuild::store_leaf(const Table::Field& field, ValueId slot, ValueId 
 
 ValueId FunctionBuild::table(const TableExpr& expr) {
   const sema::Type& type = fact(expr).type;
-  if (type.kind != sema::Type::Kind::Table) return kNone;
+  if (type.kind != sema::Type::Kind::Table || type.table->is_data) return kNone;
   construct(expr, *type.table, kNone);
   return kNone;
 }

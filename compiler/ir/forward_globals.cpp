@@ -45,13 +45,55 @@ std::vector<std::optional<ConstantValue>> find_constants(const Module& module) {
   return constants;
 }
 
-void replace_loads(Function& function, const std::vector<std::optional<ConstantValue>>& constants) {
+Instruction plain(Op op, ValueType type) {
+  Instruction instruction;
+  instruction.op = op;
+  instruction.type = type;
+  return instruction;
+}
+
+Instruction number(double value) {
+  Instruction instruction = plain(Op::ConstNumber, ValueType::Number);
+  instruction.number = value;
+  return instruction;
+}
+
+/// Element `index` of a global's data.
+ConstantValue datum(const Global& global, size_t index) {
+  if (!global.integers.empty()) {
+    Instruction value = plain(global.type == ValueType::Boolean ? Op::ConstBoolean : Op::ConstInteger, global.type);
+    value.integer = global.integers[index];
+    return {std::move(value), {}};
+  }
+  const size_t components = component_count(global.type);
+  if (components == 1) return {number(global.numbers[index]), {}};
+  ConstantValue result{plain(Op::Construct, global.type), {}};
+  for (size_t i = 0; i < components; ++i)
+    result.operands.push_back(number(global.numbers[index * components + i]));
+  return result;
+}
+
+/// What a load is known to give: of a global that is a constant, or of data at a constant index.
+std::optional<ConstantValue> known_load(const Module& module, const Function& function, const Instruction& load,
+                                        const std::vector<std::optional<ConstantValue>>& constants) {
+  if (load.op != Op::LoadGlobal && load.op != Op::LoadGlobalElement) return {};
+  const Global& global = module.globals[load.index];
+  if (load.op == Op::LoadGlobal) return global.has_data() ? datum(global, 0) : constants[load.index];
+  const Instruction& index = function.instructions[load.operands[0]];
+  const bool is_inside = index.op == Op::ConstInteger && index.integer >= 0 && index.integer < int64_t{global.count};
+  if (!global.has_data() || !is_inside) return {};
+  return datum(global, static_cast<size_t>(index.integer));
+}
+
+void replace_loads(const Module& module, Function& function,
+                   const std::vector<std::optional<ConstantValue>>& constants) {
   rewrite_blocks(function, [&](ValueId id, std::vector<ValueId>& result) {
-    if (function.instructions[id].op != Op::LoadGlobal || !constants[function.instructions[id].index]) {
+    const auto known = known_load(module, function, function.instructions[id], constants);
+    if (!known) {
       result.push_back(id);
       return true;
     }
-    const ConstantValue& constant = *constants[function.instructions[id].index];
+    const ConstantValue& constant = *known;
     Instruction value = constant.value;
     value.span = function.instructions[id].span;
     value.operands.clear();
@@ -100,7 +142,7 @@ void remove_unread_globals(Module& module) {
 void forward_constant_globals(Module& module) {
   const std::vector<std::optional<ConstantValue>> constants = find_constants(module);
   for (Function& function : module.functions)
-    replace_loads(function, constants);
+    replace_loads(module, function, constants);
   remove_unread_globals(module);
 }
 

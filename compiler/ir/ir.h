@@ -130,6 +130,11 @@ struct Global {
   uint32_t count = 1;
   /// Index into the shader's parameters (sema::ShaderInfo::parameters), or kNone.
   uint32_t parameter = kNone;
+  /// What it holds from the beginning, where nothing stores it: `count` integers or booleans, or all numbers of `count`
+  /// numbers or vectors.
+  std::vector<int64_t> integers = {};
+  std::vector<double> numbers = {};
+  bool has_data() const { return !integers.empty() || !numbers.empty(); }
 };
 
 /// A function that a host can call. Its arguments are the inputs, in the order of its parameters.

@@ -207,6 +207,7 @@ void print(const Module& module, std::ostream& out) {
   for (GlobalId i = 0; i < module.globals.size(); ++i) {
     const Global& global = module.globals[i];
     out << "global @" << i << ' ' << typed(global.name, global.type, global.count);
+    if (global.has_data()) out << ", data";
     if (global.parameter != kNone) out << ", parameter " << global.parameter;
     out << '\n';
   }

@@ -194,6 +194,11 @@ Interpreter::Interpreter(const Module& module, const std::vector<Value>& paramet
     globals_.emplace_back(global.count);
     if (global.parameter != kNone && global.parameter < parameters.size())
       globals_.back() = {parameters[global.parameter]};
+    const size_t components = component_count(global.type);
+    for (size_t i = 0; i < global.integers.size(); ++i)
+      globals_.back()[i].integer = global.integers[i];
+    for (size_t i = 0; i < global.numbers.size(); ++i)
+      globals_.back()[i / components].numbers[i % components] = global.numbers[i];
   }
   init_ = call(module.init, {});
 }

@@ -228,6 +228,7 @@ private:
     if (module_.init >= module_.functions.size() || &module_.functions[module_.init] != &function_)
       fail(id, "stands outside init");
     if (global.parameter != kNone) fail(id, "stores a parameter");
+    if (global.has_data()) fail(id, "stores data");
   }
 
   void verify_variable(ValueId id, const Instruction& instruction) {

@@ -63,6 +63,16 @@ Work* Context::home_of(const Variable& variable) const {
   return variable.is_captured && owner->frame_home != nullptr ? owner->frame_home : owner;
 }
 
+namespace {
+
+const std::vector<Constant>* data_of(const Variable& leaf) {
+  for (const Table::Field* field : leaf.table->fields)
+    if (&field->variable == &leaf) return &field->data;
+  return nullptr;
+}
+
+} // namespace
+
 Place Context::place_for(Work& work, Variable& variable, std::string_view name) {
   const Type& type = variable.type;
   const ValueType value = type.is_value() ? type.value : ValueType::Integer; // of tables: which element
@@ -78,13 +88,15 @@ Place Context::place_for(Work& work, Variable& variable, std::string_view name) 
     const uint64_t count = table->instances() * (table->kind == Table::Kind::Array ? table->length : 1);
     variable.slot->count = static_cast<uint32_t>(std::min<uint64_t>(count, kMaxTableElements));
   }
-  if (!is_frozen_for(work, variable)) {
+  const bool is_data = variable.table != nullptr && variable.table->outermost()->is_data;
+  if (!is_data && !is_frozen_for(work, variable)) {
     if (home_of(variable) != &work) work.used.insert(&variable);
     return {variable.slot, Place{}.global};
   }
   const auto [found, is_new] = globals_of.try_emplace(&variable, static_cast<uint32_t>(program.globals.size()));
   if (is_new)
-    program.globals.push_back({variable.slot->name, value, variable.slot->count, variable.slot, variable.parameter});
+    program.globals.push_back({variable.slot->name, value, variable.slot->count, is_data ? nullptr : variable.slot,
+                               is_data ? data_of(variable) : nullptr, variable.parameter});
   return {nullptr, found->second};
 }
 

@@ -27,6 +27,8 @@ inline constexpr unsigned kMaxWalkDepth = 3000;
 inline constexpr size_t kMaxFacts = 2'000'000;
 /// Elements of one table, and of all; they lie on the stack of the compiled code.
 inline constexpr uint64_t kMaxTableElements = 1 << 16;
+/// Elements that constructors fill with what is no constant.
+inline constexpr uint64_t kMaxConstructedElements = 2048;
 inline constexpr uint64_t kMaxVisits = 100'000'000;
 /// How often what stands inside each other may be differentiated.
 inline constexpr unsigned kMaxDerivativeOrder = 1;
@@ -132,6 +134,7 @@ struct Context {
   std::set<const syntax::Function*> makers;
   /// Tables by the call and the syntax that makes them (and which one of several).
   std::map<std::tuple<const Work*, const void*, unsigned>, Table*> tables;
+  uint64_t constructed_elements = 0; ///< one by one, by code
   uint64_t table_elements = 0;
   /// Locals that some declaration leaves without a value (or with too few).
   std::set<const syntax::Local*> unset_locals;

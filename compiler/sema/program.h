@@ -100,8 +100,9 @@ struct Table {
   struct Field {
     std::string_view name; ///< empty for an array's elements
     Span span;
-    Variable variable;      ///< a leaf, or a reference (its type a table, or a function)
-    Table* inner = nullptr; ///< a table that stands in this slot: part of this one
+    Variable variable;          ///< a leaf, or a reference (its type a table, or a function)
+    Table* inner = nullptr;     ///< a table that stands in this slot: part of this one
+    std::vector<Constant> data; ///< of a leaf, where the outermost table is data
   };
   Kind kind = Kind::Unknown;
   uint32_t length = 0;              ///< of an array
@@ -112,6 +113,7 @@ struct Table {
   Span span{};                      ///< its constructor
   const void* syntax = nullptr;     ///< what makes it, where several tables meet
   const Field* stands_in = nullptr; ///< of a record that refers to it
+  bool is_data = false;             ///< of the outermost: written as constants and never changed, so stored as data
   bool is_mutated = false;          ///< something is assigned to a slot after its construction
   std::vector<std::unique_ptr<Field>> storage;
 
@@ -239,8 +241,9 @@ struct GlobalSlot {
   std::string name;
   ValueType type;
   uint32_t count = 1;
-  const Slot* slot = nullptr; ///< of the top level: copied when it ends
-  uint32_t parameter = ~0u;   ///< the shader's parameter whose value this is, where it is just that
+  const Slot* slot = nullptr; ///< of the top level: copied when it ends; null where there is data
+  const std::vector<Constant>* data = nullptr;
+  uint32_t parameter = ~0u; ///< the shader's parameter whose value this is, where it is just that
 };
 
 struct EntryPoint {

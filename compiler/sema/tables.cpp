@@ -3,6 +3,7 @@
 // table. A table that exists already may become part of another, or be one of several that meet in a conditional, a
 // variable or a result, only where nobody can tell its copy from it: where it has no other name, or nothing in it is
 // ever assigned. A record outside of arrays just refers to it.
+#include "compiler/sema/constants.h"
 #include "compiler/sema/names.h"
 #include "compiler/sema/walker.h"
 
@@ -28,6 +29,14 @@ Table::Field* add_field(Table& table, std::string_view name, Span span) {
 
 Type type_of(const Table::Field& field) {
   return field.inner != nullptr ? table_type(field.inner) : field.variable.type;
+}
+
+uint64_t element_count(const Table& table) {
+  uint64_t count = 0;
+  for (const Table::Field* field : table.fields)
+    count += field->inner != nullptr ? element_count(*field->inner)
+                                     : table.instances() * std::max<uint64_t>(table.length, 1);
+  return count;
 }
 
 /// What is known while compiling alone: functions and strings.
@@ -79,7 +88,37 @@ void Walker::construct_table(const TableExpr& expr, Table& table) {
   if (table.kind != kind) context_.changed = true;
   table.kind = kind;
   kind == Table::Kind::Array ? construct_array(expr, table) : construct_record(expr, table);
-  place_leaves(table);
+  if (context_.report && table.outer == nullptr) {
+    table.is_data = !table.is_mutated && read_data(expr, table, 0);
+    if (!table.is_data) context_.constructed_elements += element_count(table);
+    if (context_.constructed_elements > kMaxConstructedElements)
+      context_.too_large(expr.span, "tables have too many elements that are no constants", kMaxConstructedElements);
+  }
+  if (table.outer == nullptr) place_leaves(table);
+}
+
+bool Walker::read_data(const TableExpr& expr, Table& table, uint64_t number) {
+  for (size_t i = 0; i < expr.fields.size(); ++i) {
+    const bool is_array = table.kind == Table::Kind::Array;
+    const auto* key = try_as<StringExpr>(expr.fields[i].key);
+    Table::Field* field = is_array ? table.fields[0] : key != nullptr ? table.find(key->value) : nullptr;
+    const uint64_t slot = is_array ? number * table.length + i : number;
+    if (field == nullptr || !read_datum(*expr.fields[i].value, table, *field, slot)) return false;
+  }
+  return true;
+}
+
+bool Walker::read_datum(const Expr& value, const Table& table, Table::Field& field, uint64_t slot) {
+  if (const auto* constructor = try_as<TableExpr>(&strip_parentheses(value)))
+    return field.inner != nullptr && read_data(*constructor, *field.inner, field.inner->is_element() ? slot : 0);
+  if (field.inner != nullptr || !field.variable.type.is_value()) return is_constant(field.variable.type);
+  const auto constant = evaluate_constant(value, [&](const Expr& at) { return constant_name(at); });
+  if (!constant) return false;
+  const uint64_t count = table.instances() * std::max<uint64_t>(table.length, 1);
+  if (count > kMaxTableElements) return false;
+  field.data.resize(count);
+  field.data[slot] = *constant;
+  return true;
 }
 
 void Walker::construct_array(const TableExpr& expr, Table& table) {

@@ -40,6 +40,9 @@ private:
   Type table(const syntax::TableExpr& expr);
   /// The constructor fills a table: its own, or the one in the slot of another constructor in which it stands.
   void construct_table(const syntax::TableExpr& expr, Table& table);
+  /// Whether the table is written as constants alone; its leaves get their data.
+  bool read_data(const syntax::TableExpr& expr, Table& table, uint64_t number);
+  bool read_datum(const syntax::Expr& value, const Table& table, Table::Field& field, uint64_t slot);
   void construct_array(const syntax::TableExpr& expr, Table& table);
   void construct_record(const syntax::TableExpr& expr, Table& table);
   void construct_field(Table& table, Table::Field& field, const syntax::Expr& value);
