@@ -27,6 +27,7 @@ inline constexpr unsigned kMaxWalkDepth = 3000;
 inline constexpr size_t kMaxFacts = 2'000'000;
 /// Elements of one table, and of all; they lie on the stack of the compiled code.
 inline constexpr uint64_t kMaxTableElements = 1 << 16;
+inline constexpr size_t kMaxRecordFields = 4096;
 /// Elements that constructors fill with what is no constant.
 inline constexpr uint64_t kMaxConstructedElements = 2048;
 inline constexpr uint64_t kMaxVisits = 100'000'000;

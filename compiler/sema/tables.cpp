@@ -67,6 +67,9 @@ void Walker::construct_table(const TableExpr& expr, Table& table) {
     error(Code::EmptyTable, expr.span);
     return;
   }
+  if (expr.fields[0].kind == FieldKind::Named && expr.fields.size() > kMaxRecordFields)
+    context_.too_large(expr.span, "a record has too many fields", kMaxRecordFields);
+  if (context_.exhausted) return;
   const Table::Kind kind = expr.fields[0].kind == FieldKind::Positional ? Table::Kind::Array : Table::Kind::Record;
   bool is_fine = true;
   for (const TableField& field : expr.fields) {

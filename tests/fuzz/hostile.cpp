@@ -301,6 +301,55 @@ std::string exponential_specialisations(size_t depth) {
          "function height(p) return " + name("f", depth) + "(1, 1, 1, 1, 1, 1, 1, 1) end";
 }
 
+// ---- tables and functions as values
+std::string table_of(size_t count, const std::string& element, bool inside) {
+  std::string table = "local t = {";
+  for (size_t i = 0; i < count; ++i)
+    table += element + ",";
+  table += "}\n";
+  const std::string before = inside ? "" : table, within = inside ? table : "";
+  return before + "function height(p, id)\n" + within + "return t[id % #t + 1] end";
+}
+std::string nested_tables(size_t depth) {
+  return "local t = " + repeat("{", depth) + "1.5" + repeat("}", depth) + "\nfunction height(p) return t" +
+         repeat("[1]", depth) + " end";
+}
+/// Each makes two tables of the one below: 2^depth calls, each with tables of its own.
+std::string exponential_makers(size_t depth) {
+  return "local function f0(x) return { v = x } end\n" +
+         lines(depth,
+               [](size_t i) {
+                 const std::string below = name("f", i);
+                 return "local function " + name("f", i + 1) + "(x) local a, b = " + below + "(x), " + below +
+                        "(x + 1) return { v = a.v + b.v } end";
+               }) +
+         "function height(p) return " + name("f", depth) + "(p.x).v end";
+}
+/// Closures of closures: each captures the one below.
+std::string chain_of_closures(size_t depth) {
+  return "local function f0(x) return function(y) return x + y end end\n" +
+         lines(depth,
+               [](size_t i) {
+                 return "local function " + name("f", i + 1) + "(x) local g = " + name("f", i) +
+                        "(x) return function(y) return g(y) + x end end";
+               }) +
+         "function height(p) return " + name("f", depth) + "(p.x)(1) end";
+}
+std::string doubling_closures(size_t depth) {
+  return "local function twice(f) return function(x) return f(f(x)) end end\nfunction height(p)\n"
+         "local f0 = function(x) return x + 1 end\n" +
+         lines(depth, [](size_t i) { return "local " + name("f", i + 1) + " = twice(" + name("f", i) + ")"; }) +
+         "return " + name("f", depth) + "(p.x) end";
+}
+std::string records_of_records(size_t depth) {
+  return "function height(p)\nlocal t0 = { x = p.x }\n" +
+         lines(depth,
+               [](size_t i) {
+                 return "local " + name("t", i + 1) + " = { a = " + name("t", i) + ", x = " + name("t", i) + ".x }";
+               }) +
+         "return " + name("t", depth) + ".x end";
+}
+
 // ---- the library
 
 std::string library_calls(size_t count, std::string_view call) {
@@ -425,6 +474,21 @@ std::vector<HostileProgram> hostile_programs() {
       {"WhileLoops300", [] { return statements(300, "while x > p.y do x = x * 0.5 end\n"); }},
       {"WhileLoops1000", [] { return statements(1000, "while x > p.y do x = x * 0.5 end\n"); }},
       {"WhileLoops10000", [] { return statements(10'000, "while x > p.y do x = x * 0.5 end\n"); }},
+      {"TableOfConstants60000", [] { return table_of(60'000, "1.5", false); }},
+      {"TableOfConstants200000", [] { return table_of(200'000, "1.5", false); }},
+      {"TableOfSines500", [] { return table_of(500, "sin(1)", false); }},
+      {"TableOfSines50000", [] { return table_of(50'000, "sin(1)", false); }},
+      {"TableOfInputs300", [] { return table_of(300, "p.x", true); }},
+      {"TableOfInputs50000", [] { return table_of(50'000, "p.x", true); }},
+      {"NestedTables100", [] { return nested_tables(100); }},
+      {"NestedTables10000", [] { return nested_tables(10'000); }},
+      {"Makers8", [] { return exponential_makers(8); }},
+      {"Makers60", [] { return exponential_makers(60); }},
+      {"ChainOfClosures30", [] { return chain_of_closures(30); }},
+      {"ChainOfClosures190", [] { return chain_of_closures(190); }},
+      {"DoublingClosures8", [] { return doubling_closures(8); }},
+      {"DoublingClosures60", [] { return doubling_closures(60); }},
+      {"RecordsOfRecords180", [] { return records_of_records(180); }},
       {"Locals190", [] { return locals(190); }},
       {"Locals10000", [] { return locals(10'000); }},
       {"LocalsInBlocks10000", [] { return locals_in_blocks(10'000); }},
