@@ -6,6 +6,7 @@
 
 #include <charconv>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <link.h>
@@ -88,7 +89,9 @@ int add_build_id(dl_phdr_info* object, size_t, void* user) {
     const auto& header = object->dlpi_phdr[k];
     if (header.p_type != PT_NOTE) continue;
     // Notes hold the linker's build id, and nothing that differs from run to run.
-    hash.add(reinterpret_cast<const void*>(object->dlpi_addr + header.p_vaddr), header.p_filesz);
+    const char* base = nullptr;
+    std::memcpy(&base, &object->dlpi_addr, sizeof base);
+    hash.add(base + header.p_vaddr, header.p_filesz);
   }
   return 0;
 }

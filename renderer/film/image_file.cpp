@@ -99,7 +99,7 @@ void describe(OIIO::ImageSpec& spec, const ImageMetadata& metadata) {
   std::string all = metadata.software;
   for (const auto& [name, value] : metadata.facts) {
     spec.attribute("moonshade:" + name, value);
-    all += "; " + name + " " + value;
+    all.append("; ").append(name).append(" ").append(value);
   }
   // Formats without fields of their own keep this one.
   spec.attribute("ImageDescription", all);

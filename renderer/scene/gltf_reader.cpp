@@ -195,7 +195,7 @@ std::shared_ptr<const Mesh> GltfReader::mesh(const tinygltf::Primitive& primitiv
     bool turned = mode == TINYGLTF_MODE_TRIANGLE_STRIP && k % 2 == 1;
     uint32_t first = mode == TINYGLTF_MODE_TRIANGLE_FAN ? list[0] : list[k];
     const uint32_t corners[3] = {first, list[turned ? k + 2 : k + 1], list[turned ? k + 1 : k + 2]};
-    if (std::string error = builder.face(corners); !error.empty()) fail(what + ": " + error);
+    if (std::string error = builder.face(corners); !error.empty()) fail(std::string(what).append(": ").append(error));
   }
   std::vector<std::string> warnings;
   auto made = builder.finish(path_ + ": " + what, warnings);

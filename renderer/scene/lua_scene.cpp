@@ -44,7 +44,7 @@ private:
   void group(SceneFields& fields, const SceneCall& call, size_t index);
   void instance(SceneFields& fields);
   void remove_hidden();
-  Object mesh_object(SceneFields& fields, std::string name, std::shared_ptr<const Mesh> mesh);
+  Object mesh_object(SceneFields& fields, const std::string& name, std::shared_ptr<const Mesh> mesh);
   /// By `matrix`, `scale`, `rotate` and `translate`, in this order.
   Mat4 placement(SceneFields& fields);
   /// Moves an object; places within places must not end beyond what floats hold, or in a point.
@@ -230,7 +230,7 @@ void SceneBuilder::move(SceneFields& fields, const Mat4& to_world, Object& objec
   if (!sound) fields.fail("'" + object.name + "' lies too far out, or has no extent left");
 }
 
-Object SceneBuilder::mesh_object(SceneFields& fields, std::string name, std::shared_ptr<const Mesh> mesh) {
+Object SceneBuilder::mesh_object(SceneFields& fields, const std::string& name, std::shared_ptr<const Mesh> mesh) {
   Object object;
   object.name = fields.text("name", name);
   object.mesh = std::move(mesh);

@@ -7,7 +7,6 @@
 #include <charconv>
 #include <cstring>
 #include <limits>
-#include <optional>
 
 namespace moonshade::renderer {
 
@@ -38,7 +37,8 @@ constexpr UseName kUses[] = {{"x", kX},         {"y", kY},         {"z", kZ},  {
 
 struct Property {
   Type type = Type::Float;
-  std::optional<Type> count_type; ///< of a list
+  bool is_list = false;
+  Type count_type = Type::Uint8; ///< of a list
   Use use = kUnused;
   bool corners = false; ///< the list of a face's vertices
 };
@@ -131,6 +131,7 @@ bool PlyReader::property(std::span<const std::string_view> words) {
   Element& element = elements_.back();
   std::string_view name = words.back();
   if (is_list) {
+    property.is_list = true;
     property.count_type = count_type->type;
     property.corners = element.name == "face" && (name == "vertex_indices" || name == "vertex_index");
   } else if (element.name == "vertex") {
@@ -225,7 +226,7 @@ bool PlyReader::number(Type type, double& value) {
 /// The numbers of a list; those of a face's corners are kept.
 bool PlyReader::list(const Property& property, bool face) {
   double count = 0;
-  if (!number(*property.count_type, count)) return false;
+  if (!number(property.count_type, count)) return false;
   if (!(count >= 0) || count != std::floor(count)) return fail("a list cannot have such a length");
   if (count > double(left())) return fail("the file ends too early"); // each takes a byte at least
   bool kept = face && property.corners;
@@ -245,7 +246,7 @@ bool PlyReader::vertex(const Element& element) {
   double values[kUseCount] = {};
   for (const Property& property : element.properties) {
     double value = 0;
-    if (property.count_type ? !list(property, false) : !number(property.type, value)) return false;
+    if (property.is_list ? !list(property, false) : !number(property.type, value)) return false;
     if (property.use != kUnused) values[property.use] = value;
   }
   auto uses = [&](Use use) {
@@ -262,7 +263,7 @@ bool PlyReader::other(const Element& element, bool face) {
   corners_.clear();
   for (const Property& property : element.properties) {
     double value = 0;
-    if (property.count_type ? !list(property, face) : !number(property.type, value)) return false;
+    if (property.is_list ? !list(property, face) : !number(property.type, value)) return false;
   }
   if (!face || corners_.empty()) return true;
   if (!have_vertices_) return early_faces_.push_back(corners_), true;

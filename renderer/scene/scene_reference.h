@@ -32,14 +32,15 @@ enum class FieldKind : uint8_t {
 
 struct FieldInfo {
   std::string_view name;
-  FieldKind kind = FieldKind::Number;
   std::string_view doc;
-  std::optional<std::array<double, 3>> otherwise = std::nullopt; ///< numbers, vectors, booleans: of an absent field
-  double least = -1e9, most = 1e9;                               ///< of numbers
-  std::span<const std::string_view> words = {};                  ///< of choices; the first is the default
+  double least = -1e9, most = 1e9;              ///< of numbers
+  std::span<const std::string_view> words = {}; ///< of choices; the first is the default
+  std::string_view only = {};                   ///< the words of `type` that have it, where not all do
+  std::string_view shown = {};                  ///< the default, where it is no constant
+  /// Of an absent field: numbers, vectors, booleans.
+  std::optional<std::array<double, 3>> otherwise = std::nullopt;
+  FieldKind kind = FieldKind::Number;
   bool required = false;
-  std::string_view only = {};  ///< the words of `type` that have it, where not all do
-  std::string_view shown = {}; ///< the default, where it is no constant
 };
 
 enum class SceneFunction : uint8_t {

@@ -102,6 +102,12 @@ with tempfile.TemporaryDirectory() as folder:
     viewer = Viewer(packets_before_hanging_up=2)
     run(bumpy, "-o", image, "--size=400x300", "--spp=24", f"--tev={viewer.place}", error="the render goes on without it")
     check(Exr(image).fact("samples") == "24", "the render ended with the viewer")
+    # Nor does one that takes nothing: sending gives up.
+    deaf = socket.create_server(("127.0.0.1", 0))
+    run(bumpy, "-o", image, "--size=1280x720", "--spp=1", "--depth=1", "--tev=127.0.0.1:%d" % deaf.getsockname()[1],
+        error="does not take the picture; the render goes on without it")
+    check(Exr(image).width == 1280, "the render ended with the viewer")
+    deaf.close()
     # None there: said before the work. The usual place has port 14158.
     os.remove(image)
     run(bumpy, "-o", image, "--tev=127.0.0.1:1", status=3, error="--tev: tev at 127.0.0.1:1: Connection refused")

@@ -28,7 +28,7 @@ with tempfile.TemporaryDirectory() as folder:
     given = files_in(folder)
     whole, image = os.path.join(folder, "whole.exr"), os.path.join(folder, "a.exr")
     checkpoint = image + ".checkpoint"
-    options = ["--size=160x120", "--spp=192", "--aov=all", "--noise=0.008"]
+    options = ["--size=160x120", "--spp=192", "--aov=all", "--noise=0.02"]
 
     # Killed at random moments, gone on with by other numbers of threads: the bits of an undisturbed render.
     start = time.monotonic()
@@ -96,6 +96,22 @@ with tempfile.TemporaryDirectory() as folder:
     check(Exr(image).fact("interrupted") == "no", "a budget of time is no interruption")
     check(os.path.exists(checkpoint), "the checkpoint is gone though the render is not done")
     os.remove(checkpoint)
+
+    # Ctrl-C ends an animation with the frame in hand; --resume goes on with that frame, then with the others.
+    frames = ["-o", os.path.join(folder, "f%d.exr"), "--size=64x48", "--spp=300", "--frames=1-2"]
+    process = subprocess.Popen([sys.argv[1], bumpy, *frames, "--checkpoint=0"], stderr=subprocess.DEVNULL)
+    while not os.path.exists(os.path.join(folder, "f1.exr.checkpoint")):
+        time.sleep(0.005)
+    process.send_signal(signal.SIGINT)
+    process.wait(timeout=600)
+    names = [name for name in files_in(folder) if name.startswith("f")]
+    check(process.returncode == 130 and names == ["f1.exr", "f1.exr.checkpoint"], f"{process.returncode}: {names}")
+    run(bumpy, *frames, "--resume")
+    resumed = [Exr(os.path.join(folder, f"f{k}.exr")) for k in (1, 2)]
+    check([f.fact("interrupted") for f in resumed] == ["no", "no"], "frames are not finished")
+    run(bumpy, *frames)
+    check(all(Exr(os.path.join(folder, f"f{k + 1}.exr")).pixels() == resumed[k].pixels() for k in (0, 1)),
+          "a resumed animation differs")
 
     # --time ends a render after whole passes: the picture is that of so many samples.
     run(bumpy, "-o", image, "--size=64x48", "--spp=1000000", "--time=0.2")

@@ -69,10 +69,11 @@ std::string frame_name(std::string_view name, int64_t frame) {
     } else if (at + 1 < name.size() && name[at + 1] == '%') {
       out += '%', at += 2;
     } else if (Place place = place_at(name, at); place.length > 0) {
-      std::string digits = std::to_string(frame < 0 ? -frame : frame), sign = frame < 0 ? "-" : "";
-      size_t used = digits.size() + sign.size();
-      std::string fill(place.width > used ? place.width - used : 0, place.zeros ? '0' : ' ');
-      out += place.zeros ? sign + fill + digits : fill + sign + digits;
+      std::string digits = std::to_string(frame);
+      // Zeros stand behind the sign, blanks before it.
+      size_t sign = place.zeros && frame < 0 ? 1 : 0, used = digits.size();
+      digits.insert(sign, place.width > used ? place.width - used : 0, place.zeros ? '0' : ' ');
+      out += digits;
       at += place.length;
     } else {
       out += name[at++];

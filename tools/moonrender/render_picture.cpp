@@ -99,7 +99,7 @@ private:
   std::optional<int64_t> frame_;
   Session& session_;
   std::string output_;
-  std::optional<renderer::Scene> scene_;
+  renderer::Scene scene_;
   renderer::ImageFile image_;
   std::unique_ptr<renderer::PreparedScene> prepared_;
   renderer::Identity identity_;
@@ -113,15 +113,16 @@ private:
 int PictureJob::read() {
   Timer timer;
   renderer::Animation animation;
-  if (frame_) animation = {*frame_, options_.frames->time_of(*frame_)};
+  animation.frame = frame_;
+  if (frame_ && options_.frames) animation.time = options_.frames->time_of(*frame_);
   renderer::SceneReading reading = renderer::read_scene(options_.scene, animation);
   for (const std::string& warning : reading.warnings)
     std::cerr << of_kind("warning", warning) << "\n";
   if (!reading.scene) return fail(kInputAtFault, of_kind("error", reading.error));
-  scene_ = std::move(reading.scene);
-  if (std::string error = apply(options_, scene_->settings); !error.empty())
+  scene_ = std::move(*reading.scene);
+  if (std::string error = apply(options_, scene_.settings); !error.empty())
     return fail(kCallAtFault, "moonrender: error: " + error);
-  std::string error = check_memory(options_, scene_->settings);
+  std::string error = check_memory(options_, scene_.settings);
   if (error.empty()) error = image_.open(output_);
   if (error.empty()) error = check_stats_place(options_);
   if (!error.empty()) return fail(kMachineAtFault, "moonrender: error: " + error);
@@ -131,7 +132,7 @@ int PictureJob::read() {
 
 int PictureJob::prepare() {
   renderer::RecordingShaders recording(*session_.shaders);
-  renderer::Preparation preparation = renderer::prepare(std::move(*scene_), recording, options_.overrides);
+  renderer::Preparation preparation = renderer::prepare(std::move(scene_), recording, options_.overrides);
   std::cerr << preparation.warnings;
   if (!preparation.prepared)
     return fail(preparation.machine_at_fault ? kMachineAtFault : kInputAtFault, of_kind("error", preparation.error));
@@ -249,7 +250,7 @@ int PictureJob::run() {
   if (int status = read(); status != kDone) return status;
   if (int status = prepare(); status != kDone) return status;
   if (is_done_already()) {
-    std::cerr << "moonrender: frame " << *frame_ << " is done already\n";
+    std::cerr << "moonrender: frame " << settings().frame << " is done already\n";
     return kDone;
   }
   if (int status = open_checkpoint(); status != kDone) return status;
