@@ -141,10 +141,37 @@ private:
       parts.push_back(index->object);
       parts.push_back(index->key);
       for (size_t j = 0; j < i; ++j)
-        if (const auto* other = try_as<IndexExpr>(stat.targets[j]); other != nullptr && may_be_one(*index, *other))
+        if (const auto* other = try_as<IndexExpr>(stat.targets[j]);
+            other != nullptr && may_be_one(*index, *other) && !is_swap(stat, j, i))
           context_.error(Code::SameTargetTwice, index->span, {std::string(spoken_name(*index->object)) + "[...]"});
     }
     siblings(parts);
+  }
+
+  /// a[i], a[j] = a[j], a[i]: where the two are one place, both values are that place's.
+  static bool is_swap(const AssignStat& stat, size_t first, size_t second) {
+    return second < stat.values.size() && is_same(*stat.targets[first], *stat.values[second]) &&
+           is_same(*stat.targets[second], *stat.values[first]);
+  }
+
+  /// The same names, constants and accesses.
+  static bool is_same(const Expr& a, const Expr& b) {
+    if (a.kind != b.kind) return false;
+    if (const auto* name = try_as<NameExpr>(&a)) {
+      const auto& other = static_cast<const NameExpr&>(b);
+      return name->local == other.local && name->name == other.name;
+    }
+    if (const auto* index = try_as<IndexExpr>(&a)) {
+      const auto& other = static_cast<const IndexExpr&>(b);
+      return is_same(*index->object, *other.object) && is_same(*index->key, *other.key);
+    }
+    if (const auto* integer = try_as<IntegerExpr>(&a))
+      return integer->value == static_cast<const IntegerExpr&>(b).value;
+    if (const auto* text = try_as<StringExpr>(&a)) return text->value == static_cast<const StringExpr&>(b).value;
+    const auto* binary = try_as<BinaryExpr>(&a);
+    if (binary == nullptr) return false;
+    const auto& other = static_cast<const BinaryExpr&>(b);
+    return binary->op == other.op && is_same(*binary->left, *other.left) && is_same(*binary->right, *other.right);
   }
 
   bool may_be_one(const IndexExpr& a, const IndexExpr& b) const {

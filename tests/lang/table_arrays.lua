@@ -73,3 +73,15 @@ function expanded(p)
 end
 -- run: expanded p=1,0,0
 -- expect: 2, 3, 1, 21
+
+function sorted(p)
+  local t = { p.x, p.y, p.z, p.x * p.y }
+  for i = 1, #t - 1 do
+    for j = 1, #t - i do
+      if t[j] > t[j + 1] then t[j], t[j + 1] = t[j + 1], t[j] end
+    end
+  end
+  return t[1], t[2], t[3], t[4]
+end
+-- run: sorted p=3,-1,2
+-- expect: -3, -1, 2, 3
