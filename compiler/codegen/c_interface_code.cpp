@@ -40,9 +40,18 @@ private:
 
   llvm::Constant* number(uint64_t value, llvm::Type* type) { return llvm::ConstantInt::get(type, value); }
 
-  llvm::Constant* table(llvm::Constant* contents) {
-    auto* variable = new llvm::GlobalVariable(module_, contents->getType(), true, llvm::GlobalValue::PrivateLinkage,
-                                              contents, "table");
+  llvm::GlobalVariable* constant(const std::string& name, llvm::Constant* contents,
+                                 llvm::GlobalValue::LinkageTypes linkage) {
+    auto* variable = llvm::cast<llvm::GlobalVariable>(module_.getOrInsertGlobal(name, contents->getType()));
+    variable->setInitializer(contents);
+    variable->setConstant(true);
+    variable->setLinkage(linkage);
+    return variable;
+  }
+
+  llvm::GlobalVariable* table(llvm::Constant* contents) {
+    llvm::GlobalVariable* variable =
+        constant("moonshade_table." + std::to_string(tables_++), contents, llvm::GlobalValue::PrivateLinkage);
     variable->setUnnamedAddr(llvm::GlobalValue::UnnamedAddr::Global);
     return variable;
   }
@@ -51,7 +60,7 @@ private:
     return table(llvm::ConstantDataArray::getString(context_, bytes, true));
   }
 
-  llvm::Constant* bytes(const std::vector<uint8_t>& values) {
+  llvm::GlobalVariable* bytes(const std::vector<uint8_t>& values) {
     return table(llvm::ConstantDataArray::get(context_, values));
   }
 
@@ -154,8 +163,8 @@ private:
         for (size_t i = 0; i < vector->size(); ++i)
           put_number(bytes, parameter.source + i * size, (*vector)[i]);
     }
-    llvm::Constant* table = this->bytes(bytes);
-    llvm::cast<llvm::GlobalVariable>(table)->setAlignment(llvm::Align(8));
+    llvm::GlobalVariable* table = this->bytes(bytes);
+    table->setAlignment(llvm::Align(8));
     return table;
   }
 
@@ -185,7 +194,7 @@ private:
     const std::string name = interface_.prefix + "_fault_sites";
     if (sites.empty()) return;
     llvm::Constant* contents = llvm::ConstantArray::get(llvm::ArrayType::get(sites[0]->getType(), sites.size()), sites);
-    new llvm::GlobalVariable(module_, contents->getType(), true, llvm::GlobalValue::ExternalLinkage, contents, name);
+    constant(name, contents, llvm::GlobalValue::ExternalLinkage);
     visible_.insert(name);
   }
 
@@ -236,6 +245,7 @@ private:
   llvm::PointerType* pointer_;
   llvm::Type *i8_, *i32_, *i64_;
   std::set<std::string> visible_;
+  unsigned tables_ = 0;
 };
 
 std::string link_support(llvm::Module& module) {

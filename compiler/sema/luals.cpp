@@ -198,13 +198,13 @@ void write_swizzles(std::string& out, unsigned size, std::string_view letters, c
 }
 
 void write_operators(std::string& out, ValueType type) {
-  const std::string self = type_text(type);
+  const std::string self = type_text(type), given = "): " + self + "\n";
   for (const char* name : {"add", "sub", "mul", "div", "mod", "idiv", "pow"}) {
     const bool is_linear = name == std::string_view("add") || name == std::string_view("sub");
     if (is_matrix(type) && !is_linear && name != std::string_view("mul") && name != std::string_view("div")) continue;
     if (!is_matrix(type) || name != std::string_view("div"))
-      out += "---@operator " + std::string(name) + "(" + self + "): " + self + "\n";
-    if (!is_matrix(type) || !is_linear) out += "---@operator " + std::string(name) + "(number): " + self + "\n";
+      out.append("---@operator ").append(name).append("(").append(self).append(given);
+    if (!is_matrix(type) || !is_linear) out.append("---@operator ").append(name).append("(number").append(given);
   }
   if (is_matrix(type)) {
     const std::string vector = type == ValueType::Mat3 ? "vec3" : "vec4";
