@@ -88,6 +88,13 @@ void Walker::give(Variable& variable, const Type& type, Span place, const Expr* 
     variable.first = place;
     return;
   }
+  // So may a closure be: of another specialisation of its maker.
+  if (type.kind == Type::Kind::Function && variable.first_type.kind == Type::Kind::Function &&
+      variable.first == place && variable.type.function == type.function) {
+    if (variable.type != type) context_.changed = true;
+    variable.type = variable.first_type = type;
+    return;
+  }
   if (type.is(ValueType::Integer) && variable.integer_given == nullptr) variable.integer_given = given;
   if (is_unknown(variable.first_type) && !is_unknown(type)) {
     variable.first_type = type;
