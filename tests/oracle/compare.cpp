@@ -6,6 +6,9 @@
 #include "runtime/interpret.h"
 #include "tests/oracle/random.h"
 
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -117,16 +120,9 @@ std::string value_text(const Column& column, size_t i, Precision precision) {
   return buffer;
 }
 
-/// Faults that stock Lua does not have.
-bool unknown_to_lua(uint8_t code) {
-  const auto fault = static_cast<FaultCode>(code);
-  return fault == FaultCode::Index || fault == FaultCode::StepLimit || fault == FaultCode::IntegerRange;
-}
-
 /// Empty where the two agree.
-std::string difference(const Results& expected, const Results& got, Precision precision, bool against_lua) {
+std::string difference(const Results& expected, const Results& got, Precision precision) {
   for (size_t i = 0; i < kPoints; ++i) {
-    if (against_lua && (unknown_to_lua(expected.faults[i]) || unknown_to_lua(got.faults[i]))) continue;
     if (expected.faults[i] != got.faults[i])
       return "point " + std::to_string(i) + ": fault " + fault_name(static_cast<FaultCode>(got.faults[i])) +
              ", expected " + fault_name(static_cast<FaultCode>(expected.faults[i]));
@@ -135,7 +131,7 @@ std::string difference(const Results& expected, const Results& got, Precision pr
         return "point " + std::to_string(i) + " output " + std::to_string(k) + ": " +
                value_text(got.outputs[k], i, precision) + ", expected " + value_text(expected.outputs[k], i, precision);
   }
-  if (!against_lua && expected.report.count != got.report.count)
+  if (expected.report.count != got.report.count)
     return "count of faults " + std::to_string(got.report.count) + ", expected " +
            std::to_string(expected.report.count);
   return {};
@@ -191,7 +187,12 @@ Outcome compare(const std::string& text, const std::vector<Variant>& variants, u
 
   const Instantiation stock = interpret(checked, {}, {});
   Results lua, lane;
-  if (stock.shader) lua = run(*stock.shader, 0, inputs);
+  Outcome agreed;
+  if (stock.shader) {
+    lua = run(*stock.shader, 0, inputs);
+    agreed.points = kPoints;
+    agreed.faulted = lua.report.count;
+  }
   Compiled narrow; // the reference of f32, made when it is first needed
   for (const Variant& variant : variants) {
     const Compiled compiled = make(checked, variant);
@@ -201,7 +202,7 @@ Outcome compare(const std::string& text, const std::vector<Variant>& variants, u
         return {Verdict::Differs,
                 name_of(variant) + ": top level: \"" + compiled.top_fault + "\", stock Lua: \"" + stock.error + "\""};
       if (!compiled.shader) continue;
-      const std::string where = difference(lua, run(*compiled.shader, 0, inputs), Precision::F64, true);
+      const std::string where = difference(lua, run(*compiled.shader, 0, inputs), Precision::F64);
       if (!where.empty()) return {Verdict::Differs, name_of(variant) + " against stock Lua: " + where};
       continue;
     }
@@ -214,10 +215,20 @@ Outcome compare(const std::string& text, const std::vector<Variant>& variants, u
       return {Verdict::Differs,
               name_of(variant) + ": top level: \"" + compiled.top_fault + "\", one lane: \"" + narrow.top_fault + "\""};
     if (!compiled.shader) continue;
-    const std::string where = difference(lane, run(*compiled.shader, 0, inputs), Precision::F32, false);
+    const std::string where = difference(lane, run(*compiled.shader, 0, inputs), Precision::F32);
     if (!where.empty()) return {Verdict::Differs, name_of(variant) + " against one lane at -O0: " + where};
   }
-  return {};
+  return agreed;
+}
+
+Verdict verdict_in_child(const std::string& text, const std::vector<Variant>& variants, uint64_t point_seed) {
+  const pid_t child = fork();
+  if (child == 0) _exit(static_cast<int>(compare(text, variants, point_seed).verdict));
+  int status = 0;
+  waitpid(child, &status, 0);
+  return WIFEXITED(status) && WEXITSTATUS(status) < static_cast<int>(Verdict::Crashed)
+             ? static_cast<Verdict>(WEXITSTATUS(status))
+             : Verdict::Crashed;
 }
 
 } // namespace moonshade::oracle

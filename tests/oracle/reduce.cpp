@@ -3,6 +3,7 @@
 // dropped.
 #include "tests/oracle/compare.h"
 
+#include <cctype>
 #include <sstream>
 
 namespace moonshade::oracle {
@@ -43,13 +44,58 @@ size_t unit_end(const Lines& lines, size_t first) {
   return last < lines.size() ? last + 1 : last;
 }
 
+/// The first error, without its place: a refusal is another one where this is another one.
+std::string first_error(const std::string& detail) {
+  const size_t begin = detail.find(": error: ");
+  return begin == detail.npos ? "" : detail.substr(begin, detail.find('\n', begin) - begin);
+}
+
+/// The place behind the parenthesis or brace that closes the one at `open`; npos where the line has none.
+size_t closing(const std::string& line, size_t open) {
+  int depth = 0;
+  for (size_t i = open; i < line.size(); ++i) {
+    if (line[i] == '(' || line[i] == '{') ++depth;
+    if ((line[i] == ')' || line[i] == '}') && --depth == 0) return i + 1;
+  }
+  return line.npos;
+}
+
+/// A line with simpler expressions: each call and parenthesis replaced by a constant where the program still fails.
+template <class StillFails> bool simplify_line(Lines& lines, size_t at, const StillFails& still_fails) {
+  bool shrunk = false;
+  for (size_t i = 0; i < lines[at].size(); ++i) {
+    if (lines[at][i] != '(') continue;
+    const size_t end = closing(lines[at], i);
+    if (end == lines[at].npos) continue;
+    size_t begin = i; // with the name of what is called
+    while (begin > 0 && (std::isalnum(static_cast<unsigned char>(lines[at][begin - 1])) ||
+                         lines[at][begin - 1] == '_' || lines[at][begin - 1] == '.'))
+      --begin;
+    const std::string whole = lines[at].substr(begin, end - begin);
+    for (const char* simple : {"1.5", "2", "true", "p", "uv"}) {
+      if (whole.size() <= std::string_view(simple).size() + 2) break;
+      Lines candidate = lines;
+      candidate[at].replace(begin, end - begin, simple);
+      if (!still_fails(candidate)) continue;
+      lines = std::move(candidate);
+      shrunk = true;
+      break;
+    }
+  }
+  return shrunk;
+}
+
 } // namespace
 
 std::string reduce(const std::string& text, const std::vector<Variant>& variants, uint64_t point_seed,
                    Verdict verdict) {
   Lines lines = split(text);
+  const std::string error =
+      verdict == Verdict::Refused ? first_error(compare(text, variants, point_seed).detail) : "";
   const auto still_fails = [&](const Lines& candidate) {
-    return compare(join(candidate), variants, point_seed).verdict == verdict;
+    if (verdict != Verdict::Refused) return verdict_in_child(join(candidate), variants, point_seed) == verdict;
+    const Outcome outcome = compare(join(candidate), variants, point_seed);
+    return outcome.verdict == verdict && first_error(outcome.detail) == error;
   };
   for (bool shrunk = true; shrunk;) {
     shrunk = false;
@@ -72,6 +118,8 @@ std::string reduce(const std::string& text, const std::vector<Variant>& variants
         ++i;
       }
     }
+    for (size_t i = 0; i < lines.size(); ++i)
+      shrunk = simplify_line(lines, i, still_fails) || shrunk;
   }
   return join(lines);
 }
