@@ -128,7 +128,8 @@ private:
     if (found == work_.callees.end()) return;
     const Work& callee = *found->second.work;
     for (const Requirement& requirement : callee.requires_assigned)
-      if (is_own(requirement.variable) || !is_outlived(callee, requirement.variable))
+      if (work_.variables.contains(static_cast<const Local*>(requirement.variable)) ||
+          !is_outlived(callee, requirement.variable))
         require(requirement.variable, requirement.name, requirement.place, &span);
     for (const void* variable : callee.assigns_always)
       state_.set(number_of(variable), true);
