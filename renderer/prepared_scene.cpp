@@ -70,6 +70,7 @@ Preparation prepare(Scene scene, ShaderSource& shaders, const Overrides& overrid
   prepared->geometry = Geometry::build(prepared->scene, result.error, prepared->materials.passable());
   prepared->geometry_seconds = seconds_since(start);
   if (!prepared->geometry) return result.machine_at_fault = true, std::move(result);
+  prepared->volumes = std::make_unique<VolumeSet>(prepared->scene, *prepared->geometry, prepared->materials);
   prepared->lights = std::make_unique<LightSet>(
       prepared->scene, *prepared->geometry, measure_emission(prepared->scene, *prepared->geometry, prepared->materials),
       std::move(environments));

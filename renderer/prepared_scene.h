@@ -5,6 +5,7 @@
 #include "renderer/lights/light_set.h"
 #include "renderer/materials/material_set.h"
 #include "renderer/scene/scene.h"
+#include "renderer/volumes/volume_set.h"
 
 #include <map>
 #include <memory>
@@ -17,6 +18,7 @@ struct PreparedScene {
   std::unique_ptr<Geometry> geometry;
   MaterialSet materials;
   std::unique_ptr<LightSet> lights;
+  std::unique_ptr<VolumeSet> volumes;
   double compile_seconds = 0;  ///< reading, checking and compiling shaders
   double geometry_seconds = 0; ///< building Embree's hierarchy
 };

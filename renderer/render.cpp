@@ -3,6 +3,7 @@
 
 #include "renderer/film/adaptive.h"
 #include "renderer/geometry/float_environment.h"
+#include "renderer/integrators/pass_setup.h"
 #include "renderer/integrators/wavefront.h"
 
 #include <chrono>
@@ -48,6 +49,10 @@ public:
         arena_(options.threads ? int(options.threads) : tbb::task_arena::automatic),
         start_(std::chrono::steady_clock::now()) {
     pass_samples_ = uint32_t(std::clamp<size_t>(kPassPaths / order_.size(), 1, 8));
+    if (PassSetup::needed(settings_.integrator)) {
+      setup_ = std::make_unique<PassSetup>(scene, arena_);
+      if (settings_.integrator == IntegratorKind::Sppm) pass_samples_ = 1; // each sample has photons of its own
+    }
     workers_.resize(size_t(arena_.max_concurrency()));
     radiance_.resize(order_.size() * pass_samples_);
     faulted_.resize(radiance_.size());
@@ -133,6 +138,7 @@ private:
     size_t chunk = std::clamp<size_t>(order_.size() / 64, 64, kBatchPaths / pass_samples_);
     size_t tasks = (order_.size() + chunk - 1) / chunk;
     std::atomic<bool> complete{true};
+    if (setup_ && !should_stop()) setup_->prepare(first_sample);
     auto run_task = [&](size_t index) {
       if (should_stop()) {
         complete = false;
@@ -143,7 +149,8 @@ private:
       if (!worker) worker = std::make_unique<Wavefront>(scene_, kBatchPaths);
       uint64_t rays_before = worker->stats().rays;
       size_t begin = index * chunk, end = std::min(begin + chunk, order_.size()), at = begin * samples;
-      worker->run({std::span(order_).subspan(begin, end - begin), first_sample, samples},
+      worker->run({std::span(order_).subspan(begin, end - begin), first_sample, samples,
+                   setup_ ? &setup_->photons() : nullptr, setup_ ? setup_->cache() : nullptr},
                   {radiance_.data() + at, faulted_.data() + at, first_.empty() ? nullptr : first_.data() + at});
       progress_.paths_done += (end - begin) * samples;
       progress_.rays_done += worker->stats().rays - rays_before;
@@ -177,6 +184,7 @@ private:
     totals_ = earlier_;
     totals_.film_seconds += film_seconds_;
     faults_ = earlier_faults_;
+    if (setup_) setup_->collect(totals_, faults_);
     for (const auto& worker : workers_) {
       if (!worker) continue;
       totals_ += worker->stats();
@@ -232,6 +240,7 @@ private:
   tbb::task_arena arena_;
   std::chrono::steady_clock::time_point start_;
   uint32_t pass_samples_ = 1;
+  std::unique_ptr<PassSetup> setup_;
   std::vector<std::unique_ptr<Wavefront>> workers_;
   // Of the pass in hand, pixel by pixel in `order_`.
   std::vector<Vec3> radiance_;

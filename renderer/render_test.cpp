@@ -339,9 +339,10 @@ TEST(Shaders, ErrorsComeBeforeRendering) {
   auto wrong = shader();
   wrong->add("color", {}, ValueType::Number, {});
   EXPECT_THAT(render_text(kShadedPlane, wrong).error, HasSubstr("'color' gives no vec3"));
-  auto later = shader();
-  later->add("density", {{"p", ValueType::Vec3}}, ValueType::Number, {});
-  EXPECT_THAT(render_text(kShadedPlane, later).error, HasSubstr("'density' is not available yet"));
+  auto volume = shader();
+  volume->add("density", {{"n", ValueType::Vec3}}, ValueType::Number, {});
+  EXPECT_THAT(render_text(kShadedPlane, volume).error,
+              HasSubstr("'density' has an input that points of a volume do not"));
   auto none = shader();
   none->add("helper", {}, ValueType::Number, {});
   EXPECT_THAT(render_text(kShadedPlane, none).error, HasSubstr("none of the functions that a material uses"));

@@ -65,13 +65,13 @@ std::string exact(double value) {
 std::string options_text(const Settings& s, const RenderOptions& options, const ShaderOptions& shaders,
                          const Overrides& overrides) {
   // All of them by name: a setting that is added does not compile here until it is part of the digest.
-  const auto& [width, height, samples, seed, depth, integrator, tonemap, exposure, clamp, time, frame] = s;
+  const auto& [width, height, samples, seed, depth, photons, integrator, tonemap, exposure, clamp, time, frame] = s;
   (void)tonemap, (void)exposure; // concern the encoding alone
   std::ostringstream text;
   text << "size=" << width << "x" << height << "\n";
   if (const auto& crop = options.crop)
     text << "crop=" << crop->x << "," << crop->y << "," << crop->width << "," << crop->height << "\n";
-  text << "spp=" << samples << "\nseed=" << seed << "\ndepth=" << depth << "\n";
+  text << "spp=" << samples << "\nseed=" << seed << "\ndepth=" << depth << "\nphotons=" << photons << "\n";
   text << "integrator=" << kIntegratorNames[size_t(integrator)] << "\nclamp=" << exact(double(clamp)) << "\n";
   text << "time=" << exact(time) << "\nframe=" << frame << "\nnoise=" << exact(options.noise) << "\n";
   text << "squares=" << options.contents.squares << "\nfirst=" << options.contents.first << "\n";

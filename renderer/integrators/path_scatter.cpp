@@ -18,7 +18,7 @@ void Wavefront::scatter_path(const CompiledMaterial& material, size_t begin, siz
     path.alive = may_bounce(path);
     if (!path.alive) continue;
     Bsdf bsdf = shader_.bsdf(material, k, values);
-    if (has_lights && bsdf.has_extent()) sample_light(path, index, k, bsdf, kAllLobes);
+    if (has_lights && bsdf.has_extent()) sample_light(path, index, k, bsdf, kAllLobes, true);
     path.alive = sample_bsdf(path, k, bsdf, kAllLobes);
   }
 }
@@ -37,13 +37,14 @@ void Wavefront::add_emission(Path& path, const CompiledMaterial& material, size_
   path.radiance += path.throughput * values.emission * weight;
 }
 
-void Wavefront::sample_light(Path& path, uint32_t index, size_t k, const Bsdf& bsdf, uint8_t lobes) {
+/// `both_ways`: the directions that the lobes are sampled by find lights, too.
+void Wavefront::sample_light(Path& path, uint32_t index, size_t k, const Bsdf& bsdf, uint8_t lobes, bool both_ways) {
   LightSample light = scene_.lights->sample(shader_.point(k).world, path.sampler.one(dimension(path, kLightChoice)),
                                             path.sampler.two(dimension(path, kLightPoint)));
   if (!(light.pdf > 0) || is_black(light.radiance)) return;
   BsdfValue value = bsdf.evaluate(light.direction, lobes);
   if (is_black(value.f_cos)) return;
-  float weight = light.delta ? 1.0f : power_heuristic(light.pdf, value.pdf);
+  float weight = light.delta || !both_ways ? 1.0f : power_heuristic(light.pdf, value.pdf);
   add_shadow(index, k, light, path.throughput * value.f_cos * light.radiance * (weight / light.pdf));
 }
 

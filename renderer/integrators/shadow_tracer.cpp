@@ -10,6 +10,7 @@ ShadowTracer::ShadowTracer(const PreparedScene& scene, size_t capacity)
   if (!scene.materials.any_passable() && !scene.lights->asks_surfaces()) return;
   shader_ = std::make_unique<HitShader>(scene.scene, *scene.geometry, scene.materials, capacity);
   hits_.resize(capacity);
+  if (scene.volumes->any()) tracker_ = std::make_unique<VolumeTracker>(scene, capacity);
 }
 
 void ShadowTracer::arrive(FaultLog& faults, WorkerStats& stats) {
@@ -40,11 +41,23 @@ void ShadowTracer::pass_through(FaultLog& faults, WorkerStats& stats) {
       rays_[k] = shadows_[active_[k]].ray;
     scene_.geometry->closest({rays_.data(), active_.size()}, hits_.data());
     stats.rays += active_.size();
+    if (tracker_) track_volumes(surface, faults, stats);
     shader_->clear();
     size_t left = 0;
     for (size_t k = 0; k < active_.size(); ++k) {
       if (!hits_[k].found()) continue;
-      const Shadow& shadow = shadows_[active_[k]];
+      Shadow& shadow = shadows_[active_[k]];
+      if (scene_.volumes->of(hits_[k].object)) {
+        SurfacePoint s = scene_.geometry->surface(shadow.ray, hits_[k]);
+        bool entering = glm::dot(s.geometric_normal, shadow.ray.direction) < 0;
+        shadow.media.cross(hits_[k].object, entering);
+        shadow.ray.origin = s.world + s.geometric_normal * (entering ? -s.offset : s.offset);
+        shadow.ray.far = std::max(shadow.ray.far - s.distance, 0.0f);
+        shadow.light.distance -= s.distance;
+        shadow.width += shadow.spread * s.distance;
+        active_[left++] = active_[k];
+        continue;
+      }
       shader_->add(active_[k], shadow.ray, hits_[k], shadow.width, shadow.spread);
       active_[left++] = active_[k];
     }
@@ -65,6 +78,27 @@ void ShadowTracer::pass_through(FaultLog& faults, WorkerStats& stats) {
       return is_black(shadows_[index].contribution) || shadows_[index].ray.far <= 0;
     });
   }
+}
+
+/// From where the active shadows are to what they meet next.
+void ShadowTracer::track_volumes(int surface, FaultLog& faults, WorkerStats& stats) {
+  flights_.clear();
+  for (size_t k = 0; k < active_.size(); ++k) {
+    const Shadow& shadow = shadows_[active_[k]];
+    Flight flight;
+    flight.object = shadow.media.active();
+    if (flight.object == Media::kNone) continue;
+    flight.owner = active_[k];
+    flight.ray = shadow.ray;
+    if (hits_[k].found()) flight.ray.far = std::min(flight.ray.far, hits_[k].distance);
+    if (flight.ray.far == kInfinity) continue; // an open mesh has no inside
+    flight.width = shadow.width, flight.spread = shadow.spread;
+    flight.sampler = shadow.sampler.fork(uint32_t(surface));
+    flights_.push_back(flight);
+  }
+  tracker_->run(flights_, VolumeTracker::Mode::Transmittance, faults, stats);
+  for (const Flight& flight : flights_)
+    shadows_[flight.owner].contribution *= flight.faulted ? 0.0f : flight.weight;
 }
 
 void ShadowTracer::ask_emitters(FaultLog& faults, WorkerStats& stats) {

@@ -5,6 +5,7 @@
 
 #include "renderer/integrators/hit_shader.h"
 #include "renderer/integrators/miss_shader.h"
+#include "renderer/integrators/volume_tracker.h"
 
 namespace moonshade::renderer {
 
@@ -15,6 +16,8 @@ struct Shadow {
   float width = 0, spread = 0;
   Emitter emitter = Emitter::Known;
   Hit light{}; ///< Emitter::Surface: where the ray ends
+  Media media{};
+  Sampler sampler{}; ///< for its way through volumes
 };
 
 class ShadowTracer {
@@ -39,6 +42,7 @@ public:
 private:
   void arrive(FaultLog& faults, WorkerStats& stats);
   void pass_through(FaultLog& faults, WorkerStats& stats);
+  void track_volumes(int surface, FaultLog& faults, WorkerStats& stats);
   void ask_emitters(FaultLog& faults, WorkerStats& stats);
 
   const PreparedScene& scene_;
@@ -52,6 +56,8 @@ private:
   MissShader miss_shader_;
   std::vector<Hit> hits_;
   std::vector<uint32_t> active_;
+  std::unique_ptr<VolumeTracker> tracker_; ///< only where there are volumes
+  std::vector<Flight> flights_;
 };
 
 } // namespace moonshade::renderer

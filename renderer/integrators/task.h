@@ -12,6 +12,9 @@ struct Task {
   /// Pixels of the whole image, as y * width + x.
   std::span<const uint32_t> pixels;
   uint32_t first_sample = 0, samples = 1;
+  // Where the integrator asks for them.
+  const class PhotonMap* photons = nullptr; ///< of this pass
+  const class IrradianceCache* cache = nullptr;
 };
 
 /// What a camera ray meets first; the default is the surroundings. (Through opaque surfaces only: glass is met, too.)

@@ -16,11 +16,16 @@ Wavefront::Wavefront(const PreparedScene& scene, size_t capacity)
       shader_(scene.scene, *scene.geometry, scene.materials, capacity), miss_shader_(scene, capacity),
       shadows_(scene, capacity), paths_(capacity), rays_(capacity), hits_(capacity) {
   active_.reserve(capacity);
+  if (!scene.volumes->any()) return;
+  tracker_ = std::make_unique<VolumeTracker>(scene, capacity);
+  camera_media_ = media_at(*scene.geometry, *scene.volumes, scene.scene.camera.from);
 }
 
 void Wavefront::run(const Task& task, const SampleOutputs& out) {
   last_ = thread_seconds();
   first_ = out.first;
+  photons_ = task.photons;
+  cache_ = task.cache;
   if (first_) std::fill_n(first_, task.pixels.size() * task.samples, FirstHit{});
   generate(task);
   stats_.film_seconds += lap();
@@ -53,6 +58,7 @@ void Wavefront::generate(const Task& task) {
       path.ray = camera_.has_lens() ? camera_.ray(x, y, path.sampler.two(kLensDimension)) : camera_.ray(x, y);
       path.width = camera_.width();
       path.spread = camera_.spread();
+      path.media = camera_media_;
       paths_[active_.size()] = path;
       active_.push_back(uint32_t(active_.size()));
     }
@@ -65,14 +71,102 @@ void Wavefront::trace() {
   scene_.geometry->closest({rays_.data(), active_.size()}, hits_.data());
   stats_.rays += active_.size();
   shader_.clear();
+  flights_.clear();
   for (size_t k = 0; k < active_.size(); ++k) {
     Path& path = paths_[active_[k]];
     ++path.segments;
-    if (hits_[k].found())
-      shader_.add(active_[k], path.ray, hits_[k], path.width, path.spread);
-    else
-      miss_shader_.add(active_[k], path.ray.direction, path.spread);
+    if (tracker_ && hits_[k].found() && path.media.active() != Media::kNone) {
+      Flight flight;
+      flight.owner = active_[k];
+      flight.hit = hits_[k];
+      flight.object = path.media.active();
+      flight.ray = path.ray;
+      flight.ray.far = hits_[k].distance;
+      flight.width = path.width, flight.spread = path.spread;
+      flight.sampler = path.sampler.fork(2 * path.segments);
+      flights_.push_back(flight);
+    } else {
+      meet(active_[k], hits_[k]);
+    }
   }
+  if (!flights_.empty()) track_volumes();
+}
+
+/// The end of a ray; borders of volumes are passed at once.
+void Wavefront::meet(uint32_t index, const Hit& hit) {
+  Path& path = paths_[index];
+  if (!hit.found()) {
+    miss_shader_.add(index, path.ray.direction, path.spread);
+  } else if (tracker_ && scene_.volumes->of(hit.object)) {
+    SurfacePoint s = scene_.geometry->surface(path.ray, hit);
+    bool entering = glm::dot(s.geometric_normal, path.ray.direction) < 0;
+    path.media.cross(hit.object, entering);
+    path.ray.origin = s.world + s.geometric_normal * (entering ? -s.offset : s.offset);
+    path.travelled += s.distance;
+    path.width += path.spread * s.distance;
+    path.alive = path.segments < kMostSegments;
+  } else {
+    shader_.add(index, path.ray, hit, path.width, path.spread);
+  }
+}
+
+void Wavefront::track_volumes() {
+  tracker_->run(flights_, VolumeTracker::Mode::Distance, faults_, stats_);
+  for (const Flight& flight : flights_) {
+    Path& path = paths_[flight.owner];
+    path.radiance += path.throughput * flight.glow;
+    path.throughput *= flight.weight;
+    if (flight.faulted || flight.weight == 0) {
+      path.alive = false;
+      path.faulted |= flight.faulted;
+    } else if (flight.collided) {
+      scatter_in_volume(flight.owner, flight);
+    } else {
+      meet(flight.owner, flight.hit);
+    }
+  }
+  trace_shadows();
+}
+
+void Wavefront::scatter_in_volume(uint32_t index, const Flight& flight) {
+  Path& path = paths_[index];
+  path.throughput *= flight.albedo;
+  path.alive = may_bounce(path);
+  if (!path.alive) return;
+  Vec3 point = path.ray.origin + path.ray.direction * flight.distance;
+  path.width += path.spread * flight.distance;
+  LightSample light = scene_.lights->count()
+                          ? scene_.lights->sample(point, path.sampler.one(dimension(path, kLightChoice)),
+                                                  path.sampler.two(dimension(path, kLightPoint)))
+                          : LightSample{};
+  bool goes_on = settings_.integrator != IntegratorKind::Whitted;
+  if (light.pdf > 0 && !is_black(light.radiance)) {
+    float phase = phase_hg(glm::dot(path.ray.direction, light.direction), flight.anisotropy);
+    float weight = light.delta || !goes_on ? 1.0f : power_heuristic(light.pdf, phase);
+    if (shadows_.full()) trace_shadows();
+    Shadow shadow;
+    shadow.ray = {point, 0, light.direction, light.distance == kInfinity ? kInfinity : light.distance * (1 - 1e-4f)};
+    shadow.owner = index;
+    shadow.contribution = path.throughput * light.radiance * (phase * weight / light.pdf);
+    shadow.width = path.width, shadow.spread = path.spread;
+    shadow.emitter = light.emitter;
+    shadow.light = {light.object, light.primitive, light.distance};
+    shadow.media = path.media;
+    shadow.sampler = path.sampler.fork(2 * path.segments + 1);
+    shadows_.add(shadow);
+  }
+  path.alive = goes_on && survives(path);
+  if (!path.alive) return;
+  Vec2 u = path.sampler.two(dimension(path, kDirection));
+  float cosine = sample_hg(u.x, flight.anisotropy), sine = std::sqrt(std::max(0.0f, 1 - cosine * cosine));
+  Vec3 local(sine * std::cos(2 * kPi * u.y), sine * std::sin(2 * kPi * u.y), cosine);
+  Vec3 direction = normalize_or(Frame(path.ray.direction).to_world(local), path.ray.direction);
+  path.ray = {point, 0, direction, kInfinity};
+  path.from = point;
+  path.travelled = 0;
+  path.pdf = phase_hg(cosine, flight.anisotropy);
+  path.mirror = false;
+  ++path.bounces;
 }
 
 /// What a ray sees that meets nothing.
@@ -89,10 +183,20 @@ void Wavefront::leave(Path& path, const Vec3& radiance, bool faulted) {
 }
 
 void Wavefront::scatter(const CompiledMaterial& material, size_t begin, size_t end) {
-  if (settings_.integrator == IntegratorKind::Path)
+  switch (settings_.integrator) {
+  case IntegratorKind::Path:
     scatter_path(material, begin, end);
-  else
+    break;
+  case IntegratorKind::Whitted:
     scatter_whitted(material, begin, end);
+    break;
+  case IntegratorKind::Sppm:
+    scatter_sppm(material, begin, end);
+    break;
+  case IntegratorKind::Irradiance:
+    scatter_irradiance(material, begin, end);
+    break;
+  }
   trace_shadows();
 }
 
@@ -139,7 +243,7 @@ void Wavefront::go_straight(Path& path, size_t k) {
 
 /// Russian roulette, by what the path can still bring (within glass, throughputs are less by the square of its index).
 bool Wavefront::survives(Path& path) {
-  float brightest = max_component(path.throughput);
+  float brightest = max_component(glm::abs(path.throughput));
   if (!(brightest > 0)) return false;
   if (path.bounces + 1 < kRouletteFrom) return true;
   float survival = std::min(0.95f, brightest * path.eta2);
@@ -160,7 +264,9 @@ void Wavefront::add_shadow(uint32_t path, size_t k, const LightSample& light, co
                 shader_.width(k),
                 paths_[path].spread,
                 light.emitter,
-                {light.object, light.primitive, light.distance}});
+                {light.object, light.primitive, light.distance},
+                paths_[path].media,
+                paths_[path].sampler.fork(2 * paths_[path].segments + 1)});
 }
 
 void Wavefront::trace_shadows() {
@@ -174,7 +280,7 @@ void Wavefront::trace_shadows() {
 void Wavefront::note_first_hits(size_t begin, size_t end) {
   for (size_t k = begin; k < end; ++k) {
     uint32_t owner = shader_.owner(k);
-    if (paths_[owner].segments != 1) continue;
+    if (paths_[owner].bounces != 0 || first_[owner].object != 0) continue; // volumes are looked through
     const SurfacePoint& s = shader_.point(k);
     const Hit& hit = shader_.hit(k);
     SurfaceValues values = shader_.values(k);

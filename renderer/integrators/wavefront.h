@@ -1,13 +1,15 @@
 // The heart of rendering. One Wavefront belongs to one thread and carries a batch of paths from the camera to their
 // ends, a bounce of all of them at a time: rays are traced together, hits are sorted by material, and each material's
 // shaders are called once for all its points. What a hit then does is the integrator's part: path_scatter.cpp follows
-// every kind of light with multiple importance sampling, whitted_scatter.cpp direct light and mirrors.
+// every kind of light with multiple importance sampling, whitted_scatter.cpp direct light and mirrors, sppm_scatter.cpp
+// looks up photons, irradiance_scatter.cpp cached irradiance.
 //
 // A path's numbers depend on its seed, pixel and sample alone; which paths share a batch changes nothing.
 #pragma once
 
 #include "renderer/camera.h"
 #include "renderer/integrators/hit_shader.h"
+#include "renderer/integrators/photon_map.h"
 #include "renderer/integrators/shadow_tracer.h"
 #include "renderer/integrators/task.h"
 #include "renderer/prepared_scene.h"
@@ -33,12 +35,13 @@ private:
     Ray ray;
     Vec3 throughput{1}, radiance{0};
     Sampler sampler;
-    Vec3 from{0};          ///< where the direction was drawn: the origin, but for sheets passed since
-    float travelled = 0;   ///< from there to the origin
-    float pdf = 0;         ///< of the direction, by the surface it comes from
-    float eta2 = 1;        ///< by which the throughput was divided at interfaces
-    float width = 0;       ///< of the footprint at the ray's origin
-    float spread = 0;      ///< its growth per distance
+    Vec3 from{0};        ///< where the direction was drawn: the origin, but for sheets passed since
+    float travelled = 0; ///< from there to the origin
+    float pdf = 0;       ///< of the direction, by the surface it comes from
+    float eta2 = 1;      ///< by which the throughput was divided at interfaces
+    float width = 0;     ///< of the footprint at the ray's origin
+    float spread = 0;    ///< its growth per distance
+    Media media{};
     uint32_t segments = 0; ///< rays so far
     uint32_t bounces = 0;  ///< vertices at which the direction changed
     bool mirror = true;    ///< no light sampling could have found what this ray finds
@@ -50,6 +53,9 @@ private:
 
   void generate(const Task& task);
   void trace();
+  void meet(uint32_t index, const Hit& hit);
+  void track_volumes();
+  void scatter_in_volume(uint32_t index, const Flight& flight);
   void leave(Path& path, const Vec3& radiance, bool faulted);
   void scatter(const CompiledMaterial& material, size_t begin, size_t end);
   bool end_if_faulted(Path& path, size_t k);
@@ -59,9 +65,12 @@ private:
 
   void scatter_path(const CompiledMaterial& material, size_t begin, size_t end);
   void add_emission(Path& path, const CompiledMaterial& material, size_t k, const SurfaceValues& values);
-  void sample_light(Path& path, uint32_t index, size_t k, const Bsdf& bsdf, uint8_t lobes);
+  void sample_light(Path& path, uint32_t index, size_t k, const Bsdf& bsdf, uint8_t lobes, bool both_ways);
   bool sample_bsdf(Path& path, size_t k, const Bsdf& bsdf, uint8_t lobes);
   void scatter_whitted(const CompiledMaterial& material, size_t begin, size_t end);
+  void scatter_sppm(const CompiledMaterial& material, size_t begin, size_t end);
+  void scatter_irradiance(const CompiledMaterial& material, size_t begin, size_t end);
+  Vec3 gather(const Path& path, size_t k, const Bsdf& bsdf, uint8_t lobes) const;
 
   /// Continues a path from point `k`.
   void follow(Path& path, size_t k, const Vec3& direction, float spread);
@@ -93,11 +102,16 @@ private:
   FaultLog faults_;
   double last_ = 0;
   FirstHit* first_ = nullptr; ///< of the task's paths, where asked for
+  const PhotonMap* photons_ = nullptr;
+  const IrradianceCache* cache_ = nullptr;
 
   std::vector<Path> paths_;
   std::vector<uint32_t> active_;
   std::vector<Ray> rays_;
   std::vector<Hit> hits_;
+  std::unique_ptr<VolumeTracker> tracker_; ///< only where there are volumes
+  std::vector<Flight> flights_;
+  Media camera_media_{};
 };
 
 } // namespace moonshade::renderer

@@ -16,4 +16,7 @@ struct ObjectEmission {
 std::vector<ObjectEmission> measure_emission(const Scene& scene, const Geometry& geometry,
                                              const MaterialSet& materials);
 
+/// Average of what each object's surface sends on, over its area: what indirect light takes it for.
+std::vector<Vec3> average_colors(const Scene& scene, const Geometry& geometry, const MaterialSet& materials);
+
 } // namespace moonshade::renderer

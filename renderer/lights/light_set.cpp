@@ -25,7 +25,7 @@ float LightSet::sky_pdf(const Entry& entry, float height) {
 }
 
 /// Index of the first cumulative share above `u`, and `u` made uniform again within it.
-static uint32_t choose(const std::vector<float>& cumulative, float& u) {
+uint32_t LightSet::choose(const std::vector<float>& cumulative, float& u) {
   auto found = std::upper_bound(cumulative.begin(), cumulative.end() - 1, u);
   uint32_t index = uint32_t(found - cumulative.begin());
   float low = index ? cumulative[index - 1] : 0, share = cumulative[index] - low;
@@ -135,6 +135,7 @@ void LightSet::add_mesh(const PlacedObject& placed, uint32_t id, const ObjectEmi
     brightness.push_back(luminance(e));
     sum += entry.cumulative.back();
   }
+  entry.power = float(sum);
   if (entry.triangles.empty() || !accumulate(entry.cumulative)) return;
   for (size_t i = 0; i < entry.triangles.size(); ++i)
     entry.triangle_pdf[entry.triangles[i]] = float(brightness[i] / sum);
@@ -178,19 +179,18 @@ Vec3 LightSet::environment(const Vec3& direction) const {
   return sum;
 }
 
+float LightSet::entry_pdf(const Entry& e, const Vec3& direction) const {
+  if (e.kind == Kind::Sky) return sky_pdf(e, direction.y);
+  if (e.kind == Kind::Around) return environments_[e.around].pdf(direction);
+  if (e.one_minus_cos <= 0) return 0;
+  Vec3 apart = direction - e.light.direction;
+  return glm::dot(apart, apart) <= 2 * e.one_minus_cos ? 1 / (2 * kPi * e.one_minus_cos) : 0.0f;
+}
+
 float LightSet::environment_pdf(const Vec3& direction) const {
   float sum = 0;
-  for (uint32_t id : environment_) {
-    const Entry& e = lights_[id];
-    if (e.kind == Kind::Sky) {
-      sum += sky_pdf(e, direction.y);
-    } else if (e.kind == Kind::Around) {
-      sum += environments_[e.around].pdf(direction);
-    } else if (e.one_minus_cos > 0) {
-      Vec3 apart = direction - e.light.direction;
-      if (glm::dot(apart, apart) <= 2 * e.one_minus_cos) sum += 1 / (2 * kPi * e.one_minus_cos);
-    }
-  }
+  for (uint32_t id : environment_)
+    sum += entry_pdf(lights_[id], direction);
   return sum / float(lights_.size());
 }
 
@@ -259,7 +259,7 @@ LightSample LightSet::sample_sphere(const Entry& entry, const Vec3& point, const
 }
 
 /// Density per area in the world of a point drawn uniformly on a sphere in object space, `unit` being its normal there.
-static float ellipsoid_pdf(const PlacedObject& placed, const Vec3& unit) {
+float LightSet::ellipsoid_pdf(const PlacedObject& placed, const Vec3& unit) {
   float r = placed.object->radius, volume = placed.scale * placed.scale * placed.scale;
   return 1 / (4 * kPi * r * r * volume * glm::length(placed.normal_matrix * unit));
 }

@@ -63,6 +63,7 @@ public:
   Vec3 sky_irradiance(const Vec3& normal) const;
 
 private:
+  friend class PhotonSource;
   enum class Kind : uint8_t { Point, Spot, Sun, Sky, Around, Mesh, Sphere, Ellipsoid };
   struct Entry {
     Kind kind = Kind::Point;
@@ -76,6 +77,7 @@ private:
     std::vector<float> triangle_pdf;     ///< Mesh: density per area, by primitive; 0 where it does not emit
     std::vector<Vec3> triangle_emission; ///< Mesh: parallel to `triangles`
     Vec3 emission{0};                    ///< Sphere, Ellipsoid
+    float power = 0;                     ///< Mesh: luminance of its mean emission, times area
     bool by_shader = false;              ///< emission is a mean
     bool one_sided = false;
     float cos_inner = 1, cos_outer = 1; ///< Spot
@@ -95,6 +97,10 @@ private:
   static Vec3 sky_radiance(const Light& light, float height);
   static float sky_pdf(const Entry& entry, float height);
   static float spot_share(const Entry& entry, const Vec3& to_light);
+  static float ellipsoid_pdf(const PlacedObject& placed, const Vec3& unit);
+  static uint32_t choose(const std::vector<float>& cumulative, float& u);
+  /// Density of a direction by one of the lights far away.
+  float entry_pdf(const Entry& entry, const Vec3& direction) const;
 
   const Geometry& geometry_;
   const Scene& scene_;

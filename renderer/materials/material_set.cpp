@@ -10,8 +10,6 @@ namespace moonshade::renderer {
 
 namespace {
 
-constexpr std::string_view kNotYet[] = {"density"};
-
 /// Everything needed to load one material's shaders.
 class MaterialLoader {
 public:
@@ -27,6 +25,9 @@ private:
   std::string from_whole_file(CompiledMaterial& compiled, std::string& warnings);
   std::string slot(CompiledMaterial& compiled, Slot slot, const std::string& file, std::string& warnings);
   std::string height(CompiledMaterial& compiled, const std::string& file, std::string& warnings);
+  std::string volume(CompiledMaterial& compiled, std::string& warnings);
+  std::string volume_entry(const std::string& file, const char* name, unsigned components, bool required,
+                           std::optional<EntryCall>& call, std::string& warnings);
 
   const Material& material_;
   ShaderSource& source_;
@@ -102,8 +103,7 @@ std::string MaterialLoader::from_whole_file(CompiledMaterial& compiled, std::str
   if (std::string error = shader_of(material_.shader, shader, warnings); !error.empty()) return error;
   bool any = false;
   for (const EntryInfo& entry : shader->info().entries) {
-    if (std::find(std::begin(kNotYet), std::end(kNotYet), entry.name) != std::end(kNotYet))
-      return material_.shader + ": '" + entry.name + "' is not available yet";
+    any |= entry.name == "density" || entry.name == "anisotropy";
     for (size_t s = 0; s < kSlotCount; ++s) {
       if (entry.name != slot_infos()[s].name) continue;
       any = true;
@@ -119,12 +119,56 @@ std::string MaterialLoader::from_whole_file(CompiledMaterial& compiled, std::str
              : material_.shader + ": has none of the functions that a material uses (color, height, reflectance, ...)";
 }
 
+/// An entry evaluated within a volume, where there is no surface.
+std::string MaterialLoader::volume_entry(const std::string& file, const char* name, unsigned components, bool required,
+                                         std::optional<EntryCall>& call, std::string& warnings) {
+  if (file.empty()) return "";
+  std::shared_ptr<const Shader> shader;
+  if (std::string error = shader_of(file, shader, warnings); !error.empty()) return error;
+  const std::vector<EntryInfo>& entries = shader->info().entries;
+  auto found = std::find_if(entries.begin(), entries.end(), [&](const EntryInfo& e) { return e.name == name; });
+  if (found == entries.end() && !required) return "";
+  if (std::string error = EntryCall::bind(shader, file, name, components, call); !error.empty()) return error;
+  constexpr uint32_t kKnown = 7u << kLocal | 7u << kWorld | 7u << kIncident | 1u << kFootprint | 1u << kTime;
+  bool backface = std::any_of(found->inputs.begin(), found->inputs.end(),
+                              [](const InputInfo& input) { return input.name == "backface"; });
+  if (!(call->needs() & ~kKnown) && !backface) return "";
+  return file + ": '" + name +
+         "' has an input that points of a volume do not have (they have: p, P, i, time, frame, id, fw)";
+}
+
+/// Nothing where the material has no density.
+std::string MaterialLoader::volume(CompiledMaterial& compiled, std::string& warnings) {
+  VolumeCalls volume;
+  const std::string& file = material_.density_shader.empty() ? material_.shader : material_.density_shader;
+  std::string error;
+  if (!material_.density)
+    error = volume_entry(file, "density", 1, !material_.density_shader.empty(), volume.density, warnings);
+  if (!error.empty() || (!volume.density && !material_.density)) return error;
+  volume.density_constant = material_.density.value_or(0.0f);
+  volume.anisotropy_constant = material_.anisotropy;
+  auto slot_of = [&](Slot slot, std::optional<EntryCall>& call, Vec3& constant) {
+    size_t s = size_t(slot);
+    constant = material_.values[s].value_or(slot_infos()[s].default_value);
+    if (material_.values[s]) return std::string();
+    const std::string& own = material_.shaders[s];
+    return volume_entry(own.empty() ? material_.shader : own, slot_infos()[s].name, 3, !own.empty(), call, warnings);
+  };
+  error = slot_of(Slot::Color, volume.color, volume.color_constant);
+  if (error.empty()) error = slot_of(Slot::Emission, volume.emission, volume.emission_constant);
+  if (error.empty()) error = volume_entry(material_.shader, "anisotropy", 1, false, volume.anisotropy, warnings);
+  compiled.volume = std::move(volume);
+  return error;
+}
+
 std::string MaterialLoader::load(CompiledMaterial& compiled, std::string& warnings) {
   compiled.bump = material_.bump;
   compiled.emits_outward_only = material_.emits_outward_only;
   compiled.thin = material_.thin;
   compiled.absorption = material_.absorption;
   compiled.average_emission = material_.average_emission;
+  if (std::string error = volume(compiled, warnings); !error.empty() || compiled.volume)
+    return error.empty() && !unknown_.empty() ? unknown_.begin()->second : error;
   for (size_t s = 0; s < kSlotCount; ++s) {
     compiled.constants[s] = material_.values[s].value_or(slot_infos()[s].default_value);
     if (material_.shaders[s].empty()) continue;
@@ -207,6 +251,8 @@ std::string MaterialSet::build(const Scene& scene, ShaderSource& source,
              "' uses this shader\n";
     for (const auto& call : compiled.calls)
       if (call) materials.width_ = std::max(materials.width_, call->shader().width());
+    if (compiled.volume && compiled.volume->density)
+      materials.width_ = std::max(materials.width_, compiled.volume->density->shader().width());
     if (compiled.height) materials.width_ = std::max(materials.width_, compiled.height->shader().width());
     if (found != overrides.end() && !loader.uses_shaders())
       return "-D: the material '" + material.name + "' has no shader, so no parameter '" +

@@ -42,10 +42,20 @@ Gradient height_gradient();
 void note_faults(const EntryCall& call, const uint8_t* codes, size_t count, const FaultReport& report,
                  FaultLog& faults);
 
+/// What a volume's shaders say; where there is no call, the constant.
+struct VolumeCalls {
+  std::optional<EntryCall> density, color, emission, anisotropy;
+  float density_constant = 0, anisotropy_constant = 0;
+  Vec3 color_constant{0.8f}, emission_constant{0};
+
+  bool glows() const { return emission || !is_black(emission_constant); }
+};
+
 struct CompiledMaterial {
   std::array<Vec3, kSlotCount> constants;
   std::array<std::optional<EntryCall>, kSlotCount> calls;
   std::optional<EntryCall> height;
+  std::optional<VolumeCalls> volume; ///< then there is no surface
   /// Where the shader gives it and `bump` asks for it.
   std::optional<HeightGradient> gradient;
   BumpMode bump = BumpMode::Gradient;
@@ -55,13 +65,17 @@ struct CompiledMaterial {
   Vec3 absorption{0};
   std::optional<Vec3> average_emission; ///< as the scene says
 
-  bool emits() const { return may_differ(Slot::Emission, 0) || !is_black(constants[size_t(Slot::Emission)]); }
+  bool emits() const {
+    return !volume && (may_differ(Slot::Emission, 0) || !is_black(constants[size_t(Slot::Emission)]));
+  }
   /// A light sample has to ask the shader what arrives.
   bool emission_varies() const { return emits() && (calls[size_t(Slot::Emission)] || may_differ(Slot::Opacity, 1)); }
   bool measures_emission() const { return emission_varies() && !average_emission; }
   Vec3 known_emission() const { return average_emission.value_or(constants[size_t(Slot::Emission)]); }
   /// Light may pass straight through: shadows have to look twice.
-  bool passable() const { return may_differ(Slot::Opacity, 1) || (thin && may_differ(Slot::Transmission, 0)); }
+  bool passable() const {
+    return volume || may_differ(Slot::Opacity, 1) || (thin && may_differ(Slot::Transmission, 0));
+  }
   bool may_differ(Slot slot, float value) const {
     return calls[size_t(slot)].has_value() || constants[size_t(slot)].x != value;
   }
@@ -88,7 +102,8 @@ public:
   std::vector<uint8_t> passable() const;
   bool any_passable() const { return any_passable_; }
   bool any_emits() const {
-    return std::any_of(materials_.begin(), materials_.end(), [](const CompiledMaterial& m) { return m.emits(); });
+    return std::any_of(materials_.begin(), materials_.end(),
+                       [](const CompiledMaterial& m) { return m.emits() || (m.volume && m.volume->glows()); });
   }
   /// Lanes of the compiled shaders; 1 where there are none.
   unsigned width() const { return width_; }

@@ -62,6 +62,13 @@ public:
   Sampler() = default;
   Sampler(uint32_t seed, uint32_t pixel, uint32_t sample) : key_(hash_combine(hash32(seed), pixel)), sample_(sample) {}
 
+  /// Numbers of its own for a part of the sample that draws an unknown count of them.
+  Sampler fork(uint32_t salt) const {
+    Sampler other = *this;
+    other.key_ = hash_combine(key_ ^ 0x5bd1e995u, salt);
+    return other;
+  }
+
   float one(uint32_t dimension) const {
     uint32_t key = hash_combine(key_, dimension);
     uint32_t index = owen_scramble(sample_, key);

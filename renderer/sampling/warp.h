@@ -31,6 +31,18 @@ inline Vec3 sample_cone(const Vec2& u, float one_minus_cos) {
   return {r * std::cos(phi), r * std::sin(phi), z};
 }
 
+/// Henyey and Greenstein 1941: density per solid angle of scattering by an angle of this cosine.
+inline float phase_hg(float cosine, float g) {
+  float base = 1 + g * g - 2 * g * cosine;
+  return (1 - g * g) / (4 * kPi * base * std::sqrt(base));
+}
+/// The cosine of a scattering angle with that density.
+inline float sample_hg(float u, float g) {
+  if (std::abs(g) < 1e-3f) return 1 - 2 * u;
+  float s = (1 - g * g) / (1 + g - 2 * g * u);
+  return std::clamp((1 + g * g - s * s) / (2 * g), -1.0f, 1.0f);
+}
+
 /// Offset within a tent of radius 1: the pixel filter, importance-sampled.
 inline float sample_tent(float u) { return u < 0.5f ? std::sqrt(2 * u) - 1 : 1 - std::sqrt(2 - 2 * u); }
 

@@ -113,6 +113,7 @@ void SceneBuilder::render(SceneFields& fields) {
   s.samples = uint32_t(fields.integer("samples"));
   s.seed = uint32_t(fields.integer("seed"));
   s.depth = uint32_t(fields.integer("depth"));
+  s.photons = uint32_t(fields.integer("photons"));
   s.integrator = IntegratorKind(fields.choice("integrator"));
   s.tonemap = Tonemap(fields.choice("tonemap"));
   s.exposure = float(fields.number("exposure"));
@@ -182,9 +183,13 @@ void SceneBuilder::material(SceneFields& fields, const SceneCall& call, size_t i
   m.absorption = fields.color("absorption");
   if (fields.has("average_emission")) m.average_emission = fields.color("average_emission");
   parameters(fields, m.parameters);
-  for (const char* later : {"density", "anisotropy"})
-    if (call.fields.contains(later))
-      fields.fail("'" + std::string(later) + "' is not available yet"), fields.find(later);
+  if (const SceneValue* density = fields.find("density")) {
+    if (const auto* name = std::get_if<std::string>(&density->value))
+      m.density_shader = file(fields, "density", *name);
+    else
+      m.density = float(fields.number("density"));
+  }
+  m.anisotropy = float(fields.number("anisotropy"));
   const auto& emission = m.values[size_t(Slot::Emission)];
   has_emission_ |= (emission && !is_black(*emission)) || !m.shaders[size_t(Slot::Emission)].empty();
   uint32_t id = uint32_t(scene_.materials.size());

@@ -70,7 +70,7 @@ TEST_F(LuaScene, NamesLineAndNearestNameOfWrongFields) {
   EXPECT_EQ(error("sphere{ material = {} }"), "s.lua:1: sphere: 'material' is what material{} gave, or its name");
   EXPECT_EQ(error("material{ name = 'a' }\nmaterial{ name = 'a' }"),
             "s.lua:2: material: there is a material 'a' already");
-  EXPECT_EQ(error("material{ density = 1 }"), "s.lua:1: material: 'density' is not available yet");
+  EXPECT_EQ(error("material{ density = -1 }"), "s.lua:1: material: 'density' lies between 0 and 1e+09");
   EXPECT_EQ(error("material{ color = {1, -1, 0} }"), "s.lua:1: material: 'color' is not negative");
   EXPECT_THAT(error("sphere{ 1, 2 }"), HasSubstr("s.lua:1: sphere: takes named fields only: name, center, radius"));
   EXPECT_THAT(error("sphere(1)"), HasSubstr("s.lua:1: 'sphere' takes one table"));

@@ -69,6 +69,11 @@ struct Material {
   std::string shader;
   std::map<std::string, Constant> parameters;
   BumpMode bump = BumpMode::Gradient;
+  /// A volume within a closed object, where one of these or the shader's `density` is given. Then `color` is the
+  /// scattering albedo, and `emission` is per unit of length.
+  std::string density_shader;
+  std::optional<float> density;
+  float anisotropy = 0;
   bool emits_outward_only = false; ///< an area light's
   bool thin = false;               ///< a sheet: what is transmitted goes on unbent
   Vec3 absorption{0};              ///< of a solid that transmits, per unit of length in world space
@@ -122,10 +127,10 @@ struct Camera {
   float focus = 0;    ///< distance of the plane in focus, along the axis; 0: that of `to`
 };
 
-enum class IntegratorKind : uint8_t { Path, Whitted };
+enum class IntegratorKind : uint8_t { Path, Whitted, Sppm, Irradiance };
 enum class Tonemap : uint8_t { None, Filmic };
 /// Their names in scenes and on the command line, in the order of the enumerations.
-inline constexpr std::string_view kIntegratorNames[] = {"path", "whitted"};
+inline constexpr std::string_view kIntegratorNames[] = {"path", "whitted", "sppm", "irradiance"};
 inline constexpr std::string_view kTonemapNames[] = {"none", "filmic"};
 
 struct Settings {
@@ -133,6 +138,7 @@ struct Settings {
   uint32_t samples = 64;
   uint32_t seed = 0;
   uint32_t depth = 8;
+  uint32_t photons = 200000; ///< of each pass, for integrators that send them out
   IntegratorKind integrator = IntegratorKind::Path;
   Tonemap tonemap = Tonemap::None;
   float exposure = 0; ///< stops

@@ -69,7 +69,7 @@ with tempfile.TemporaryDirectory() as folder:
     run(bumpy, "-o", image, "--crop=0,0,4000,4000", status=2, error="--crop lies outside the image")
     run(bumpy, "-o", os.path.join(folder, "none/a.png"), status=3, error="No such file")
     run(bumpy, "-o", image, f"--stats={folder}/none/s.json", status=3, error="none/s.json: No such file")
-    for option in ("--cache-dir=x", "--no-cache", "--bake", "--integrator=sppm", "--integrator=irradiance"):
+    for option in ("--cache-dir=x", "--no-cache", "--bake"):
         run(bumpy, "-o", image, option, status=2, error="not available yet")
     check(os.listdir(folder) == [], f"files are left: {os.listdir(folder)}")
 

@@ -83,8 +83,9 @@ TEST(Images, ThreadsChangeNothing) {
 }
 
 TEST(Images, LightsAndTransparentSurfacesGiveTheSameBitsToo) {
-  for (IntegratorKind integrator : {IntegratorKind::Path, IntegratorKind::Whitted}) {
-    auto change = [&](Scene& scene) { scene.settings.integrator = integrator; };
+  for (IntegratorKind integrator :
+       {IntegratorKind::Path, IntegratorKind::Whitted, IntegratorKind::Sppm, IntegratorKind::Irradiance}) {
+    auto change = [&](Scene& scene) { scene.settings.integrator = integrator, scene.settings.photons = 5000; };
     Outcome one = render_file("lights.scene.lua", {.width = 1}, {}, {.threads = 1}, change);
     ASSERT_EQ(one.error, "");
     EXPECT_EQ(one.result.fault_count, 0u);
@@ -94,6 +95,21 @@ TEST(Images, LightsAndTransparentSurfacesGiveTheSameBitsToo) {
             render_file("lights.scene.lua", {.width = width}, {}, {.threads = threads}, change).result.picture.pixels,
             one.result.picture.pixels)
             << width << " lanes, " << threads << " threads";
+  }
+}
+
+TEST(Images, VolumesGiveTheSameBitsToo) {
+  for (IntegratorKind integrator :
+       {IntegratorKind::Path, IntegratorKind::Whitted, IntegratorKind::Sppm, IntegratorKind::Irradiance}) {
+    auto change = [&](Scene& scene) { scene.settings.integrator = integrator, scene.settings.photons = 5000; };
+    Outcome one = render_file("volumes.scene.lua", {.width = 1}, {}, {.threads = 1}, change);
+    ASSERT_EQ(one.error, "");
+    EXPECT_EQ(one.result.fault_count, 0u);
+    for (unsigned width : {4u, 16u})
+      EXPECT_EQ(render_file("volumes.scene.lua", {.width = width}, {}, {.threads = width / 4 + 1}, change)
+                    .result.picture.pixels,
+                one.result.picture.pixels)
+          << width << " lanes";
   }
 }
 

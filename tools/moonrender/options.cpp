@@ -127,13 +127,11 @@ void animation(const Given& given, Options& options) {
 
 /// Texts to values.
 void convert(const Given& given, Options& options) {
-  static constexpr std::string_view kLaterIntegrators[] = {"sppm", "irradiance"};
   size_and_crop(given, options);
   shader_options(given, options);
   animation(given, options);
   if (!given.integrator.empty())
-    options.integrator = renderer::IntegratorKind(
-        one_of(given.integrator, "--integrator", renderer::kIntegratorNames, kLaterIntegrators));
+    options.integrator = renderer::IntegratorKind(one_of(given.integrator, "--integrator", renderer::kIntegratorNames));
   if (!given.tonemap.empty())
     options.tonemap = renderer::Tonemap(one_of(given.tonemap, "--tonemap", renderer::kTonemapNames));
   if (given.samples) options.samples = in_range<uint32_t>(double(*given.samples), 1, 1 << 24, "--spp");
@@ -206,7 +204,7 @@ void add_render_options(CLI::App& app, Given& given) {
   app.add_option("--seed", given.seed, "Of the random numbers (0)")->option_text("N")->group(group);
   app.add_option("--threads", given.threads, "Threads (all)")->option_text("N")->group(group);
   app.add_option("--integrator", given.integrator, "How light is followed (path)")
-      ->option_text("path|whitted")
+      ->option_text("path|whitted|sppm|irradiance")
       ->group(group);
   app.add_option("--depth", given.depth, "Segments a path may have (8)")->option_text("N")->group(group);
   app.add_option("--clamp", given.clamp, "Bound of a sample's radiance (none)")->option_text("L")->group(group);

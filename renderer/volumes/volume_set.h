@@ -1,0 +1,67 @@
+// Hypertextures (Perlin and Hoffert 1989): objects whose material has a `density` are volumes. Their surfaces only
+// bound them. Each has a grid of controls over its box: numbers near the density's maximum in a cell, measured from the
+// compiled shader when the scene is loaded. Tracking is unbiased for any positive controls (Galtier et al. 2013); near
+// the maximum it is quick.
+#pragma once
+
+#include "renderer/geometry/geometry.h"
+#include "renderer/materials/material_set.h"
+
+#include <memory>
+
+namespace moonshade::renderer {
+
+/// Volumes that a point is in, by object. Where they overlap, the one that comes last in the scene counts.
+struct Media {
+  static constexpr uint32_t kNone = UINT32_MAX;
+  uint32_t ids[4] = {kNone, kNone, kNone, kNone};
+
+  void cross(uint32_t id, bool entering) {
+    for (uint32_t& slot : ids)
+      if (slot == id) slot = kNone;
+    if (!entering) return;
+    for (uint32_t& slot : ids)
+      if (slot == kNone) {
+        slot = id;
+        return;
+      }
+  }
+  uint32_t active() const {
+    uint32_t found = kNone;
+    for (uint32_t slot : ids)
+      if (slot != kNone && (found == kNone || slot > found)) found = slot;
+    return found;
+  }
+};
+
+struct Volume {
+  Vec3 low{0}, cell{1}; ///< in object space
+  int size[3] = {1, 1, 1};
+  std::vector<float> controls;
+
+  float control(const int* at) const { return controls[size_t((at[2] * size[1] + at[1]) * size[0] + at[0])]; }
+};
+
+class VolumeSet {
+public:
+  VolumeSet(const Scene& scene, const Geometry& geometry, const MaterialSet& materials);
+
+  bool any() const { return any_; }
+  /// Nothing but speed and noise depends on controls; for tests of that.
+  void multiply_controls(float factor);
+  /// The volume of an object; null: a surface.
+  const Volume* of(uint32_t object) const { return volumes_[object].get(); }
+
+private:
+  std::vector<std::unique_ptr<Volume>> volumes_;
+  bool any_ = false;
+};
+
+/// The volumes around a point: those left more often than entered on the way out.
+Media media_at(const Geometry& geometry, const VolumeSet& volumes, const Vec3& point);
+
+/// Inputs of a volume's shaders at one point, into the batch at `k`.
+void fill_volume_inputs(ShadingBatch& batch, size_t k, const Vec3& local, const Vec3& world, const Vec3& direction,
+                        float footprint, uint32_t object);
+
+} // namespace moonshade::renderer

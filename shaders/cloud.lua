@@ -1,0 +1,22 @@
+-- cloud.lua: weather in a thin shell around a planet of radius 1
+local cover   = param("cover", 0.45, { min = 0, max = 1, doc = "share of the sky that is overcast" })
+local density_ = param("thickness", 260, { min = 0, max = 5000, doc = "extinction of the densest cloud" })
+
+local FLOOR <const> = 1.012
+local TOP   <const> = 1.05
+
+function density(p)
+  local r = length(p)
+  local height = (r - FLOOR) / (TOP - FLOOR)
+  if height < 0 or height > 1 then return 0 end
+  local d = p / r
+  -- bands of weather, drawn out along the latitude and stirred
+  local q = vec3(d.x, 2.2 * d.y, d.z) * 2.6
+  q = q + 0.5 * vec3(noise(q * 1.7), noise(q * 1.7 + 31), noise(q * 1.7 + 67))
+  local weather = 0.5 + 0.5 * fbm(q, 6) - (1 - cover) * 0.62
+  local shape = weather - 0.35 * abs(height - 0.35) + 0.10 * noise(p * 28)
+  return density_ * smoothstep(0.12, 0.42, shape)
+end
+
+function color(p) return rgb(0.995, 0.995, 0.995) end
+function anisotropy() return 0.55 end
