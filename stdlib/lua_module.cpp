@@ -4,6 +4,7 @@
 
 #include "stdlib/library.h"
 #include "stdlib/lua_calculus.h"
+#include "stdlib/lua_tables.h"
 #include "stdlib/lua_vector.h"
 #include "stdlib/signature.h"
 
@@ -401,6 +402,12 @@ int luaopen_moonshade(lua_State* state) {
   set_function(state, "param", param, false);
   set_function(state, "gradient", lua_gradient, false);
   set_function(state, "fwidth", lua_fwidth, false);
+  for (const char* name : {"ramp", "palette", "catmullrom", "bspline"}) {
+    push_table_function(state, name);
+    lua_pushvalue(state, -1);
+    lua_setglobal(state, name);
+    lua_setfield(state, -3, name); // the module
+  }
   open_vectors(state);
   open_matrices(state);
   lua_pop(state, 1);

@@ -468,6 +468,8 @@ FunctionBuild::Values FunctionBuild::call(const Expr& expr) {
     return {converted(arguments[0], known.type.value)};
   case CallKind::ToInteger:
     return {to_integer(known, arguments[0])};
+  case CallKind::TableFunction:
+    return {table_function(known, fact(*args[1]).type, arguments)};
   case CallKind::Gradient:
     return {gradient(known, arguments[1])};
   case CallKind::Fwidth:

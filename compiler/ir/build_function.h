@@ -90,6 +90,7 @@ private:
   Values call_specialisation(const sema::ExpressionFact& known, const Values& arguments);
   Values call_library(const sema::ExpressionFact& known, Values arguments);
   Values square_numbers(ValueType type, ValueId argument);
+  ValueId table_function(const sema::ExpressionFact& known, const sema::Type& array, const Values& arguments);
   Values column_of(ValueId matrix, unsigned column);
   ValueId matrix_times(ValueId matrix, const Values& vector);
   ValueId matrix_product(ValueId left, ValueId right);

@@ -134,6 +134,7 @@ TypeList Walker::call_library(const CallExpr& expr, std::string_view name) {
   if (is_derivative(name)) return derivative_call(expr, name);
   const TypeList types = arguments(expr.args);
   if (types.open) return unknown_values();
+  if (is_table_function(name, types)) return table_function(expr, name, types);
   return call_table_row(expr, name, {expr.args.begin(), expr.args.end()}, types.types);
 }
 

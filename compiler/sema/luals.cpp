@@ -84,6 +84,15 @@ function param(name, default, meta) end
 ---@overload fun(f: (fun(x: number): number), x: number): number
 function gradient(f, p) end
 
+---Through an array of values at equal distances over 0..1, along lines; x is clamped.
+---@param x number
+---@param values number[]
+---@return number
+---@overload fun(x: number, values: vec2[]): vec2
+---@overload fun(x: number, values: vec3[]): vec3
+---@overload fun(x: number, values: vec4[]): vec4
+function ramp(x, values) end
+
 ---How much f changes over the footprint fw at p.
 ---@param f fun(p: any): number
 ---@param p number|vec2|vec3|vec4

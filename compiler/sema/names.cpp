@@ -76,9 +76,10 @@ constexpr std::string_view kPlannedFunctions[] = {
     "math.type",   "math.ult",
 };
 
-constexpr std::array<std::string_view, 16> kBuiltIn = {
-    "vec2",   "vec3",  "vec4",       "rgb",       "mat3",           "mat4",      "param",    "require",
-    "assert", "error", "math.floor", "math.ceil", "math.tointeger", "math.type", "gradient", "fwidth"};
+constexpr std::array<std::string_view, 17> kBuiltIn = {
+    "vec2",           "vec3",      "vec4",     "rgb",    "mat3",       "mat4",
+    "param",          "require",   "assert",   "error",  "math.floor", "math.ceil",
+    "math.tointeger", "math.type", "gradient", "fwidth", "ramp"};
 
 constexpr LibraryConstant kConstants[] = {
     {"math.pi", false, std::numbers::pi, 0},

@@ -166,8 +166,18 @@ enum class CallKind : uint8_t {
   Error,          ///< error(message)
   Gradient,       ///< gradient(f, p): `callee` or, where that is null, `library`, of one parameter, by it
   Fwidth,         ///< fwidth(f, p, fw): the length of that, times the magnitude of fw
+  TableFunction,  ///< ramp(x, t) and the like: `table_function`; `field` is t's element, `library` what goes between
+                  ///< values: mix, catmullrom, bspline
   Ipairs,         ///< ipairs(t), of a `for` alone
   Require,        ///< require "name": the module has run
+};
+
+/// How a call of CallKind::TableFunction takes the values of its array.
+enum class TableFunction : uint8_t {
+  Ramp,       ///< linear, from the first at 0 to the last at 1; clamped
+  Palette,    ///< linear, one span each, and from the last back to the first: of period 1
+  Catmullrom, ///< from the second at 0 to the one before the last at 1
+  Bspline,    ///< the same spans
 };
 
 /// Where a slot is found at run time.
@@ -208,6 +218,7 @@ struct ExpressionFact {
   const LibraryFunction* library = nullptr;   ///< CallKind::Library and ToInteger; operators given by a row "op.*"
   ValueType operand_type = ValueType::Number; ///< operators: type to which both operands are converted first
   OperatorForm form = OperatorForm::Plain;
+  TableFunction table_function = TableFunction::Ramp;
   std::vector<uint8_t> components; ///< component access and swizzles (`v.x`, `v.zyx`, `v[1]`): indices from 0
 };
 

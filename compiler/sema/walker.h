@@ -104,6 +104,8 @@ private:
                           const std::vector<Type>& types);
   TypeList method_call(const syntax::MethodCallExpr& expr);
   TypeList construct(const syntax::CallExpr& expr, std::string_view name);
+  bool is_table_function(std::string_view name, const TypeList& types) const;
+  TypeList table_function(const syntax::CallExpr& expr, std::string_view name, const TypeList& types);
   TypeList construct_matrix(const syntax::CallExpr& expr, std::string_view name);
   Type matrix_column(const syntax::IndexExpr& expr, const Type& object);
   Type matrix_arithmetic(const syntax::BinaryExpr& expr, const Type& left, const Type& right);
