@@ -21,12 +21,12 @@ ShaderLoad RecordingShaders::load(const std::string& file, const std::map<std::s
   ShaderLoad load = source_.load(file, parameters, overrides);
   files_.insert(file);
   if (!load.shader) return load;
-  for (const auto* names : {&load.shader->info().modules, &load.shader->info().images})
-    for (const std::string& name : *names) {
-      std::error_code error;
-      fs::path beside = fs::path(folder_of(file)) / name;
-      files_.insert(fs::exists(beside, error) ? beside.string() : name);
-    }
+  files_.insert(load.files.begin(), load.files.end());
+  for (const std::string& name : load.shader->info().images) {
+    std::error_code error;
+    fs::path beside = fs::path(folder_of(file)) / name;
+    files_.insert(fs::exists(beside, error) ? beside.string() : name);
+  }
   return load;
 }
 

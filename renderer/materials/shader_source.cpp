@@ -108,6 +108,9 @@ ShaderLoad RuntimeShaders::load(const std::string& file, const std::map<std::str
   ShaderLoad load;
   if (!shader.error.empty()) return load.error = shader.error, load;
   load.warnings = std::exchange(shader.warnings, "");
+  const SourceSet& sources = shader.checked->sources();
+  for (FileId source = 0; source < sources.size(); ++source)
+    load.files.emplace_back(sources.name(source));
   std::map<std::string, Constant> merged;
   load.error = merge(shader.checked->info(), parameters, overrides, merged, load.unknown);
   if (!load.error.empty()) return load.error = file + ": " + load.error, load;

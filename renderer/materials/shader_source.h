@@ -17,6 +17,7 @@ struct ShaderLoad {
   /// Given names that are no parameters of this shader, each with a message for where no other shader of the material
   /// has it either.
   std::map<std::string, std::string> unknown = {};
+  std::vector<std::string> files = {}; ///< that it was read from: its own, and its modules'
 };
 
 class ShaderSource {

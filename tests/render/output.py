@@ -57,6 +57,18 @@ with tempfile.TemporaryDirectory() as folder:
     check(image.attributes["Software"].startswith(b"moonshade "), "Software")
     check(Exr(exr).fact("digest") is not None, "digest")
 
+    # The digest follows the modules of shaders.
+    module = write(os.path.join(folder, "tints.lua"), "return { red = rgb(1, 0, 0) }\n")
+    write(os.path.join(folder, "tinted.lua"), 'local t = require "tints"\nfunction color(p) return t.red end\n')
+    scene = write(os.path.join(folder, "s.lua"), 'sphere{ material = material{ shader = "tinted.lua" } }\n')
+    digests = set()
+    for text in ("", "-- another\n"):
+        with open(module, "a") as file:
+            file.write(text)
+        run(scene, "-o", exr, *small)
+        digests.add(Exr(exr).fact("digest"))
+    check(len(digests) == 2, "a module is no part of the digest")
+
     # Tone mapping and exposure touch the encoded files alone.
     run(bumpy, "-o", exr, *small, "--exposure=2", "--tonemap=filmic")
     check(Exr(exr).pixels() == plain.pixels(), "exposure changes the EXR")
