@@ -91,6 +91,8 @@ struct Local {
   bool is_assigned = false;
   /// The function whose local it is.
   Function* function = nullptr;
+  /// The value of a `<const>` local that stock Lua may know while it compiles: of the last name in its statement.
+  const struct Expr* constant = nullptr;
 };
 
 // ---- expressions ---------------------------------------------------------------------------------------------------

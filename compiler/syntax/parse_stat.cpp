@@ -312,6 +312,8 @@ Stat* Parser::local_stat(Token local_token) {
     scopes_.declare(*local); // not visible in the values
   for (size_t i = 0; i < std::min(locals.size(), values.exprs.size()); ++i)
     if (auto* function = try_as<Function>(values.exprs[i])) function->name = locals[i]->name;
+  if (locals.size() == values.exprs.size() && locals.back()->attrib == Attrib::Const)
+    locals.back()->constant = values.exprs.back();
   stat->locals = arena_.copy(locals);
   stat->values = values.exprs;
   return finish(stat, values.height);

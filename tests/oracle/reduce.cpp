@@ -90,8 +90,7 @@ template <class StillFails> bool simplify_line(Lines& lines, size_t at, const St
 std::string reduce(const std::string& text, const std::vector<Variant>& variants, uint64_t point_seed,
                    Verdict verdict) {
   Lines lines = split(text);
-  const std::string error =
-      verdict == Verdict::Refused ? first_error(compare(text, variants, point_seed).detail) : "";
+  const std::string error = verdict == Verdict::Refused ? first_error(compare(text, variants, point_seed).detail) : "";
   const auto still_fails = [&](const Lines& candidate) {
     if (verdict != Verdict::Refused) return verdict_in_child(join(candidate), variants, point_seed) == verdict;
     const Outcome outcome = compare(join(candidate), variants, point_seed);

@@ -172,7 +172,8 @@ private:
   void report(uint64_t seed, Verdict verdict) {
     const std::string text = generate_program(seed);
     const std::vector<Variant> variants = variants_of(settings_, seed);
-    const std::string detail = verdict == Verdict::Crashed ? "crashed, " + name_of(variants[0]) + " or another one" : compare(text, variants, seed).detail;
+    const std::string detail = verdict == Verdict::Crashed ? "crashed, " + name_of(variants[0]) + " or another one"
+                                                           : compare(text, variants, seed).detail;
     const std::string reduced = settings_.no_reduce ? text : reduce(text, variants, seed, verdict);
     const std::lock_guard lock(mutex_);
     std::filesystem::create_directories(settings_.out);
