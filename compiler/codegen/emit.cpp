@@ -1,6 +1,8 @@
 // The emitter's frame: modules, functions, blocks, and the way from an instruction to what emits it (emitter.h).
 #include "compiler/codegen/emitter.h"
 
+#include <algorithm>
+
 namespace moonshade::codegen {
 
 using ir::Op;
@@ -73,7 +75,12 @@ llvm::Type* ModuleEmitter::results_type(const ir::Function& function, const ir::
   for (size_t i = 0; i < function.results.size(); ++i)
     for (unsigned c = 0; c < component_count(function.results[i]); ++c)
       parts.push_back(domain.part(function.results[i], uniformity.results_varying[i] && domain.width > 1));
-  return parts.empty() ? llvm::Type::getVoidTy(domain.context) : llvm::StructType::get(domain.context, parts);
+  if (parts.empty()) return llvm::Type::getVoidTy(domain.context);
+  // LLVM returns a third and fourth scalar double in x87 registers, slowly, and copies them from there by instructions
+  // that do not exist for xmm16 to xmm31. More integers than there are registers for make it return all in memory.
+  if (std::ranges::count_if(parts, [](llvm::Type* part) { return part->isFloatingPointTy(); }) > 2)
+    parts.push_back(llvm::ArrayType::get(llvm::Type::getInt64Ty(domain.context), 4));
+  return llvm::StructType::get(domain.context, parts);
 }
 
 // ------------------------------------------------------------------------------------------------------- Functions

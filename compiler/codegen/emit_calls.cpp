@@ -203,7 +203,7 @@ void FunctionEmitter::return_from_llvm(llvm::Type* type, const std::vector<Lanes
       builder.CreateRet(result);
   };
   if (masks.open()) {
-    llvm::Value* result = type->isVoidTy() ? nullptr : llvm::Constant::getNullValue(type);
+    llvm::Value* result = type->isVoidTy() ? nullptr : llvm::PoisonValue::get(type); // of what is filled in below
     unsigned part = 0;
     for (const Lanes& lanes : values)
       for (llvm::Value* value : lanes.parts)

@@ -118,7 +118,7 @@ bool Walker::read_datum(const Expr& value, const Table& table, Table::Field& fie
   const auto constant = evaluate_constant(value, [&](const Expr& at) { return constant_name(at); });
   if (!constant) return false;
   const uint64_t count = table.instances() * std::max<uint64_t>(table.length, 1);
-  if (count > kMaxTableElements) return false;
+  if (count > kMaxTableElements || slot >= count) return false; // of a length that is not known, or another one
   field.data.resize(count);
   field.data[slot] = *constant;
   return true;
