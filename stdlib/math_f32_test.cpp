@@ -1,13 +1,17 @@
 // The kernels for floats against C's functions in double, over every 997th float and around the hard places: the
 // greatest error in units in the last place. C's double results are good to far below half of one such unit.
+// scripts/exhaustive runs them over every float (MOONSHADE_FLOAT_STRIDE=1).
 #include "stdlib/exports_for_test.h"
 #include "stdlib/numbers.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <limits>
+#include <numbers>
 
 namespace moonshade {
 namespace {
@@ -46,13 +50,20 @@ void* export_of(const char* symbol) {
   return nullptr;
 }
 
+/// Every how many floats are looked at.
+uint64_t float_stride() {
+  const char* stride = std::getenv("MOONSHADE_FLOAT_STRIDE");
+  return stride == nullptr ? 997 : std::max(1ull, std::strtoull(stride, nullptr, 10));
+}
+
 Worst worst_of_one(const char* symbol, double (*reference)(double)) {
   auto function = reinterpret_cast<void (*)(void*, const void*)>(export_of(symbol));
   Worst worst;
-  for (uint64_t bits = 0; bits < 0x1'0000'0000; bits += kWidth * 997) {
+  const uint64_t stride = float_stride();
+  for (uint64_t bits = 0; bits < 0x1'0000'0000; bits += kWidth * stride) {
     Block x, y;
     for (unsigned i = 0; i < kWidth; ++i)
-      x[i] = float_of(uint32_t(bits + i * 997));
+      x[i] = float_of(uint32_t(bits + i * stride));
     function(&y, &x);
     for (unsigned i = 0; i < kWidth; ++i)
       worst.add(error_in_ulps(y[i], reference(double(x[i]))), x[i]);
@@ -76,11 +87,22 @@ TEST_P(OneNumber, IsWithinTheStatedError) {
   EXPECT_LE(worst.error, GetParam().limit) << "at " << std::hexfloat << worst.x;
 }
 
+double inverse_root(double x) { return 1 / std::sqrt(x); }
+double to_radians(double x) { return x * (std::numbers::pi / 180); }
+double to_degrees(double x) { return x * (180 / std::numbers::pi); }
+double below_one(double x) {
+  return std::min(x - std::floor(x), 0x1.fffffep-1); // what rounds to 1 stays below
+}
+
 INSTANTIATE_TEST_SUITE_P(Kernels, OneNumber,
                          testing::Values(One{"sin", std::sin, 1.6}, One{"cos", std::cos, 1.6}, One{"tan", std::tan, 2},
                                          One{"asin", std::asin, 2}, One{"acos", std::acos, 2},
                                          One{"atan", std::atan, 2}, One{"exp", std::exp, 1}, One{"log", std::log, 1},
-                                         One{"sqrt", std::sqrt, 0.5}),
+                                         One{"sqrt", std::sqrt, 0.5}, One{"inversesqrt", inverse_root, 1.5},
+                                         One{"radians", to_radians, 1}, One{"degrees", to_degrees, 1},
+                                         One{"floor", std::floor, 0}, One{"ceil", std::ceil, 0},
+                                         One{"trunc", std::trunc, 0}, One{"round", std::round, 0},
+                                         One{"fract", below_one, 0.5}),
                          [](const auto& info) { return std::string(info.param.symbol); });
 
 /// A spread of floats: magnitudes over all exponents, near 1, integers, and the special ones.
