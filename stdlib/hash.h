@@ -65,6 +65,11 @@ template <class L> MS_INLINE UInt32<L> lattice(L i) {
 
 inline constexpr uint32_t kLatticePrimes[4] = {0x9e3779b1u, 0x85ebca77u, 0xc2b2ae3du, 0x27d4eb2fu};
 
+/// Whether a hash has any of these bits.
+template <class L> MS_INLINE Mask<L> hash_is_set(UInt32<L> hash, uint32_t bits) {
+  return to_mask<L>((hash & UInt32<L>(bits)) != UInt32<L>(0u));
+}
+
 /// The last step of a lattice point's hash, from the exclusive or of its coordinates u times their primes: the square,
 /// of which the upper half is good. Nearer to independent than a product with a constant, which keeps the differences
 /// along a row.

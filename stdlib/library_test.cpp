@@ -42,14 +42,15 @@ TEST(Library, RowsAreComplete) {
 
 TEST(Library, TypesAndDefaultsComeFromTheRows) {
   auto fbm = library_overloads("fbm");
-  ASSERT_EQ(fbm.size(), 3u);
+  ASSERT_EQ(fbm.size(), 4u);
   const LibraryFunction& row = fbm[2];
   EXPECT_EQ(row.symbol, "fbm_vec3");
   EXPECT_EQ(row.parameters[0], ValueType::Vec3);
-  EXPECT_EQ(row.parameter_count, 4);
+  EXPECT_EQ(row.parameter_count, 5);
   EXPECT_EQ(row.required_count, 1);
   EXPECT_EQ(row.defaults[1], 6);
   EXPECT_EQ(row.defaults[3], 0.5);
+  EXPECT_EQ(row.defaults[4], 0);
   EXPECT_EQ(row.results[0], ValueType::Number);
   const LibraryFunction& floor = library_overloads("math.floor")[0];
   EXPECT_EQ(floor.result_count, 2);

@@ -63,9 +63,9 @@ TEST_F(LuaModule, CallsTheSameBodies) {
   EXPECT_EQ(number("noise(vec2(0.3, -1.7))"), noise<double>(q));
   EXPECT_EQ(number("noise(0.3)"), noise<double>(0.3));
   EXPECT_EQ(number("perlin(vec3(0.3, -1.7, 2.9))"), perlin<double>(p));
-  EXPECT_EQ(number("turbulence(vec3(0.3, -1.7, 2.9))"), (turbulence<double>(p, 6.0, 2.0, 0.5))) << "defaults";
-  EXPECT_EQ(number("turbulence(vec3(0.3, -1.7, 2.9), 3)"), (turbulence<double>(p, 3.0, 2.0, 0.5)));
-  EXPECT_EQ(number("fbm(vec2(0.3, -1.7), 4, 2.1, 0.4)"), (fbm<double>(q, 4.0, 2.1, 0.4)));
+  EXPECT_EQ(number("turbulence(vec3(0.3, -1.7, 2.9))"), (turbulence<double>(p, 6.0, 2.0, 0.5, 0.0))) << "defaults";
+  EXPECT_EQ(number("turbulence(vec3(0.3, -1.7, 2.9), 3)"), (turbulence<double>(p, 3.0, 2.0, 0.5, 0.0)));
+  EXPECT_EQ(number("fbm(vec2(0.3, -1.7), 4, 2.1, 0.4)"), (fbm<double>(q, 4.0, 2.1, 0.4, 0.0)));
   EXPECT_EQ(number("hash(5)"), hash<double>(5.0));
   EXPECT_EQ(number("hash(5.0)"), hash<double>(5.0));
   EXPECT_EQ(number("hash(math.maxinteger)"), hash_of_integer<double>(INT64_MAX));
@@ -182,7 +182,7 @@ TEST_F(LuaModule, NamesFunctionAndArgument) {
   EXPECT_THAT(value("smoothstep(0, {}, 1)"),
               HasSubstr("bad argument #2 'b' to 'smoothstep' (number or vector expected, got table)"));
   EXPECT_THAT(value("noise('0.5')"),
-              HasSubstr("bad argument #1 'p' to 'noise' (number, vec2 or vec3 expected, got string)"));
+              HasSubstr("bad argument #1 'p' to 'noise' (number, vec2, vec3 or vec4 expected, got string)"));
   EXPECT_THAT(value("dot(vec3(1), vec2(1))"), HasSubstr("bad argument #2 'b' to 'dot' (vec3 expected, got vec2)"));
   EXPECT_THAT(value("cross(1, 2)"), HasSubstr("bad argument #1 'a' to 'cross' (vec3 expected, got integer)"));
   EXPECT_THAT(value("mix(1, 2, 3, 4)"), HasSubstr("too many arguments to 'mix' (at most 3, got 4)"));

@@ -1,10 +1,11 @@
-// Simplex noise, the library's `noise`.
+// Simplex noise, the library's `noise`, in 1 to 4 dimensions; `vnoise`, three of it at once.
 //
 // Simplex noise (Perlin 2001; Gustavson, "Simplex noise demystified", 2005): space is cut into simplices by skewing the
 // integer lattice; each corner within reach adds a gradient ramp under the kernel (1/2 - d^2)^4, which vanishes with
 // three derivatives before the next simplex begins, so the noise is twice continuously differentiable. Gradients come
 // from a hash of the corner (hash.h), by sign flips and choices instead of a table: the twelve edges of a cube in 3-D,
-// eight directions at equal angles in 2-D. The scales bring the greatest sum over all choices of gradients to 1.
+// the 32 of a tesseract in 4-D, eight directions at equal angles in 2-D. The scales bring the greatest sum over all
+// choices of gradients to 1.
 //
 // Defined everywhere. Coordinates to about 2^22 (float) or 2^50 (double) have their own cells; beyond, the value means
 // nothing but is the same at every width. NaN and infinity give NaN.
@@ -12,6 +13,7 @@
 
 #include "stdlib/dual.h"
 #include "stdlib/hash.h"
+#include "stdlib/lattice.h"
 #include "stdlib/numbers.h"
 #include "stdlib/vec.h"
 
@@ -27,7 +29,7 @@ template <class L> MS_INLINE Bits<L> sign_from(UInt32<L> hash) {
 
 /// A bit of the hash as a mask. (Shifts of the hash to the left would be made multiplications by the optimiser.)
 template <class L> MS_INLINE Mask<L> hash_bit(UInt32<L> hash, int bit) {
-  return to_mask<L>((hash & UInt32<L>(uint32_t(1) << bit)) != UInt32<L>(0u));
+  return hash_is_set<L>(hash, uint32_t(1) << bit);
 }
 
 /// The same from another bit.
@@ -103,8 +105,39 @@ template <class L> struct Ramp3 {
   };
 };
 
+/// One of a tesseract's 32 edges: all components but one, with any signs.
+template <class L> struct Ramp4 {
+  Mask<L> not_x, not_w, upper; ///< upper: z or w is left out
+  Bits<L> sign[3];
+  MS_INLINE explicit Ramp4(UInt32<L> hash)
+      : upper(hash_bit<L>(hash, 28)), sign{sign_from<L>(hash), sign_from_bit<L>(hash, 30), sign_from_bit<L>(hash, 29)} {
+    auto odd = hash_bit<L>(hash, 27);
+    not_x = !upper & !odd;
+    not_w = upper & odd;
+  }
+  MS_INLINE L at(Vec<4, L> d) const {
+    L u = select(not_x, d[1], d[0]), v = select(upper, d[1], d[2]), w = select(not_w, d[2], d[3]);
+    return flip_sign(u, sign[0]) + flip_sign(v, sign[1]) + flip_sign(w, sign[2]);
+  }
+
+  struct Gradients {
+    L first = constant<L>(0), y = first, z = first, last = first, second = first, third = first;
+    MS_INLINE void add(L weight, const Ramp4& ramp) {
+      L u = flip_sign(weight, ramp.sign[0]), v = flip_sign(weight, ramp.sign[1]), w = flip_sign(weight, ramp.sign[2]);
+      first = first + u;
+      y = select(ramp.not_x, y + u, y); // those of the firsts along y
+      second = second + v;
+      third = select(ramp.upper, third + v, third); // those of the seconds along y
+      last = last + w;
+      z = select(ramp.not_w, z + w, z); // those of the lasts along z
+    }
+    MS_INLINE Vec<4, L> sum() const { return {{first - y, y + third, (second - third) + z, last - z}}; }
+  };
+};
+
 template <class L, int N>
-using Ramp = std::conditional_t<N == 1, Ramp1<L>, std::conditional_t<N == 2, Ramp2<L>, Ramp3<L>>>;
+using Ramp = std::conditional_t<N <= 2, std::conditional_t<N == 1, Ramp1<L>, Ramp2<L>>,
+                                std::conditional_t<N == 3, Ramp3<L>, Ramp4<L>>>;
 
 // What the corners add up to ------------------------------------------------------------------------------------------
 
@@ -131,16 +164,34 @@ template <class L, int N> struct SumWithGradient {
   }
 };
 
-/// max(t, 0)^4 times the ramp, t being the square of the reach less d^2.
-template <class L, int N, class S> MS_INLINE void add_corner(UInt32<L> hash, const Vec<N, L>& d, double reach, S& sum) {
+/// Three sums at once, with gradients of their own at each corner.
+template <class S> struct Three {
+  S each[3];
+};
+
+/// max(t, 0), t being the square of the reach less d^2.
+template <class L, int N> MS_INLINE L kernel_root(const Vec<N, L>& d, double reach) {
   L t = constant<L>(reach);
 #pragma clang loop unroll(full)
   for (int i = 0; i < N; ++i)
     t = nmadd(d[i], d[i], t);
-  t = max(t, constant<L>(0));
-  L square = t * t;
+  return max(t, constant<L>(0));
+}
+
+/// The kernel, the fourth power of its root, times the ramp.
+template <class L, int N, class S> MS_INLINE void add_corner(UInt32<L> hash, const Vec<N, L>& d, double reach, S& sum) {
+  L t = kernel_root(d, reach), square = t * t;
   Ramp<L, N> ramp(hash);
   sum.add(square * square, square * t, ramp.at(d), d, ramp);
+}
+template <class L, int N, class S>
+MS_INLINE void add_corner(UInt32<L> hash, const Vec<N, L>& d, double reach, Three<S>& sum) {
+  L t = kernel_root(d, reach), square = t * t, kernel = square * square, cube = square * t;
+#pragma clang loop unroll(full)
+  for (int which = 0; which < 3; ++which) {
+    Ramp<L, N> ramp(other_hash(hash, which));
+    sum.each[which].add(kernel, cube, ramp.at(d), d, ramp);
+  }
 }
 
 /// In one dimension the corners are the integers and the kernel is (1 - d^2)^4.
@@ -203,10 +254,54 @@ template <class L, class S> MS_INLINE void add_noise(Vec<3, L> p, S& sum) {
   corner(hi1 ^ hj1 ^ hk1, x - half, y - half, z - half);
 }
 
+template <class L, class S> MS_INLINE void add_noise(Vec<4, L> p, S& sum) {
+  using U = UInt32<L>;
+  constexpr double skew = 0x1.3c6ef372fe95p-2;    // (sqrt 5 - 1) / 4
+  constexpr double unskew = 0x1.1b06d1d200913p-3; // (5 - sqrt 5) / 20
+  L s = (p[0] + p[1]) + (p[2] + p[3]);
+  L i[4], t = constant<L>(0);
+  U low[4], high[4];
+  Vec<4, L> d;
+#pragma clang loop unroll(full)
+  for (int a = 0; a < 4; ++a) {
+    i[a] = floor(madd(s, skew, p[a]));
+    t = t + i[a];
+    low[a] = lattice(i[a]) * kLatticePrimes[a];
+    high[a] = low[a] + kLatticePrimes[a];
+  }
+#pragma clang loop unroll(full)
+  for (int a = 0; a < 4; ++a)
+    d[a] = madd(t, unskew, p[a] - i[a]);
+
+  // How many of the others each coordinate precedes: corner n goes along those that precede at least 4 - n.
+  U rank[4] = {U(0u), U(0u), U(0u), U(0u)};
+#pragma clang loop unroll(full)
+  for (int a = 0; a < 4; ++a)
+#pragma clang loop unroll(full)
+    for (int b = a + 1; b < 4; ++b) {
+      auto precedes = less_equal(d[b], d[a]);
+      rank[a] = select(precedes, rank[a] + 1u, rank[a]);
+      rank[b] = select(precedes, rank[b], rank[b] + 1u);
+    }
+  // A loop: unrolled it would be much code for little speed.
+#pragma clang loop unroll(disable)
+  for (uint32_t n = 0; n < 5; ++n) {
+    U hash = U(0u);
+    Vec<4, L> to;
+#pragma clang loop unroll(full)
+    for (int a = 0; a < 4; ++a) {
+      auto along = to_mask<L>(rank[a] >= U(4 - n));
+      hash ^= select(along, high[a], low[a]);
+      to[a] = d[a] + select(along, constant<L>(n * unskew - 1), constant<L>(n * unskew));
+    }
+    add_corner<L>(lattice_hash(hash), to, 0.5, sum);
+  }
+}
+
 // The noise -----------------------------------------------------------------------------------------------------------
 
-/// By dimensions: 1 / greatest sum, which is 0.31640625 (at 1/2), 0.0108195832768, 0.0130071571829.
-template <int N> inline constexpr double kNoiseScale = N == 1 ? 3.16 : N == 2 ? 92.42 : 76.88;
+/// By dimensions: 1 / greatest sum, which is 0.31640625 (at 1/2), 0.0108195832768, 0.0130071571829, 0.015929221459.
+template <int N> inline constexpr double kNoiseScale = N == 1 ? 3.16 : N == 2 ? 92.42 : N == 3 ? 76.88 : 62.77;
 
 template <class L, int N> MS_INLINE L noise(Vec<N, L> p) {
   Sum<L, N> sum;
@@ -215,16 +310,29 @@ template <class L, int N> MS_INLINE L noise(Vec<N, L> p) {
 }
 template <class L> MS_INLINE L noise(L x) { return noise<L>(Vec<1, L>{{x}}); }
 
-/// The chain rule from the gradient at the point's value.
 template <DualLane D, int N> MS_INLINE D noise(Vec<N, D> p) {
   using L = typename D::Lane;
   SumWithGradient<L, N> sum;
-  add_noise<L>(map<N, L>([](const D& x) __attribute__((always_inline)) { return x.v; }, p), sum);
-  L value = sum.value * constant<L>(kNoiseScale<N>);
-  Vec<N, L> g = sum.gradient(kNoiseScale<N>);
-  if constexpr (N == 1) return chain<D>(value, p[0], g[0]);
-  if constexpr (N == 2) return chain<D>(value, p[0], g[0], p[1], g[1]);
-  if constexpr (N == 3) return chain<D>(value, p[0], g[0], p[1], g[1], p[2], g[2]);
+  add_noise<L>(plain(p), sum);
+  return chain<D>(sum.value * constant<L>(kNoiseScale<N>), p, sum.gradient(kNoiseScale<N>));
 }
+
+/// Three noises, of which the first is `noise`.
+template <class L, int N> MS_INLINE Vec<3, L> vnoise(Vec<N, L> p) {
+  Three<Sum<L, N>> sum;
+  add_noise<L>(p, sum);
+  L scale = constant<L>(kNoiseScale<N>);
+  return {{sum.each[0].value * scale, sum.each[1].value * scale, sum.each[2].value * scale}};
+}
+template <DualLane D, int N> MS_INLINE Vec<3, D> vnoise(Vec<N, D> p) {
+  using L = typename D::Lane;
+  Three<SumWithGradient<L, N>> sum;
+  add_noise<L>(plain(p), sum);
+  const auto component = [&](int i) __attribute__((always_inline)) {
+    return chain<D>(sum.each[i].value * constant<L>(kNoiseScale<N>), p, sum.each[i].gradient(kNoiseScale<N>));
+  };
+  return {{component(0), component(1), component(2)}};
+}
+template <class L> MS_INLINE Vec<3, L> vnoise(L x) { return vnoise<L>(Vec<1, L>{{x}}); }
 
 } // namespace moonshade::stdlib

@@ -239,18 +239,19 @@ TEST(Fractal, SumsOctaves) {
     sum += n * std::ldexp(1, -i);
     magnitudes += std::abs(n) * std::ldexp(1, -i);
   }
-  EXPECT_DOUBLE_EQ((fbm<double>(p, 5.0, 2.0, 0.5)), sum);
-  EXPECT_DOUBLE_EQ((turbulence<double>(p, 5.0, 2.0, 0.5)), magnitudes);
-  EXPECT_DOUBLE_EQ((turbulence<double>(p, 4.5, 2.0, 0.5)), magnitudes) << "a fraction counts as an octave";
+  EXPECT_DOUBLE_EQ((fbm<double>(p, 5.0, 2.0, 0.5, 0.0)), sum);
+  EXPECT_DOUBLE_EQ((turbulence<double>(p, 5.0, 2.0, 0.5, 0.0)), magnitudes);
+  const double last = std::abs(noise<double>(p * 16.0)) / 16;
+  EXPECT_DOUBLE_EQ((turbulence<double>(p, 4.25, 2.0, 0.5, 0.0)), magnitudes - 0.75 * last) << "a fraction of the last";
 }
 
 TEST(Fractal, CapsTheOctaves) {
   V2 p = {{0.3, -1.7}};
-  double most = fbm<double>(p, 32.0, 1.9, 0.5);
-  EXPECT_EQ((fbm<double>(p, 1e9, 1.9, 0.5)), most);
-  EXPECT_EQ((fbm<double>(p, double(INFINITY), 1.9, 0.5)), most);
+  double most = fbm<double>(p, 32.0, 1.9, 0.5, 0.0);
+  EXPECT_EQ((fbm<double>(p, 1e9, 1.9, 0.5, 0.0)), most);
+  EXPECT_EQ((fbm<double>(p, double(INFINITY), 1.9, 0.5, 0.0)), most);
   for (double none : {0.0, -3.0, double(-INFINITY), double(NAN)})
-    EXPECT_EQ((fbm<double>(p, none, 2.0, 0.5)), 0) << none;
+    EXPECT_EQ((fbm<double>(p, none, 2.0, 0.5, 0.0)), 0) << none;
 }
 
 } // namespace

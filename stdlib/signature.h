@@ -5,7 +5,9 @@
 #pragma once
 
 #include "stdlib/color.h"
+#include "stdlib/curl.h"
 #include "stdlib/fractal.h"
+#include "stdlib/gabor.h"
 #include "stdlib/geometry.h"
 #include "stdlib/grain.h"
 #include "stdlib/matrix.h"
@@ -13,10 +15,13 @@
 #include "stdlib/numbers.h"
 #include "stdlib/operators.h"
 #include "stdlib/pattern.h"
+#include "stdlib/periodic_noise.h"
 #include "stdlib/perlin.h"
 #include "stdlib/sdf.h"
 #include "stdlib/spline.h"
+#include "stdlib/value_noise.h"
 #include "stdlib/value_type.h"
+#include "stdlib/worley.h"
 
 #include <array>
 

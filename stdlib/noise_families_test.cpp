@@ -1,0 +1,605 @@
+// What all noises promise (noise.h, perlin.h, value_noise.h, worley.h, gabor.h, periodic_noise.h, curl.h, fractal.h):
+// range, mean and spread, continuity over the borders of cells, period, isotropy and spectrum, what is far away or
+// undefined; and each family's own. scripts/exhaustive looks for the ranges over 10^9 points
+// (MOONSHADE_NOISE_SAMPLES).
+#include "stdlib/curl.h"
+#include "stdlib/fractal.h"
+#include "stdlib/gabor.h"
+#include "stdlib/periodic_noise.h"
+#include "stdlib/perlin.h"
+#include "stdlib/worley.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <limits>
+#include <numbers>
+#include <random>
+#include <vector>
+
+// What the bitcode brings with it (gather.ll.in), for native code.
+extern "C" void moonshade_gather_w8(void* result, const void* table, const void* offsets) {
+  for (int i = 0; i < 8; ++i)
+    std::memcpy(static_cast<char*>(result) + 4 * i,
+                static_cast<const char*>(table) + static_cast<const uint32_t*>(offsets)[i], 4);
+}
+
+namespace moonshade::stdlib {
+namespace {
+
+using W = Wide<double, 8>;
+template <int N> using V = Vec<N, double>;
+template <int N> using WV = Vec<N, W>;
+
+/// A noise over eight points of up to four dimensions at once.
+struct Noise {
+  const char* name;
+  int dimensions;
+  W (*at)(const WV<4>&);
+  double low, high, mean, deviation;
+  bool smooth;
+};
+
+template <int N> WV<N> first_of(const WV<4>& p) {
+  WV<N> q;
+  for (int i = 0; i < N; ++i)
+    q[i] = p[i];
+  return q;
+}
+template <int N> WV<N> all(double x) {
+  return map<N, W>([](W x) { return x; }, constant<W>(x));
+}
+W number(double x) { return constant<W>(x); }
+
+#define OF(N, expression)                                                                                              \
+  N, [](const WV<4>& p4) -> W {                                                                                        \
+    [[maybe_unused]] const auto p = first_of<N>(p4);                                                                   \
+    return expression;                                                                                                 \
+  }
+
+// Limits, mean and standard deviation as the headers state them or follow from what they state; where only a sum of
+// everything's maxima bounds the range, what 10^9 points have shown, rounded up.
+const Noise kNoises[] = {
+    {"noise1", OF(1, noise<W>(p)), -1, 1, 0, 0.330, true},
+    {"noise2", OF(2, noise<W>(p)), -1, 1, 0, 0.544, true},
+    {"noise3", OF(3, noise<W>(p)), -1, 1, 0, 0.392, true},
+    {"noise4", OF(4, noise<W>(p)), -1, 1, 0, 0.254, true},
+    {"perlin1", OF(1, perlin<W>(p[0])), -1, 1, 0, 0.194, true},
+    {"perlin2", OF(2, perlin<W>(p)), -1, 1, 0, 0.256, true},
+    {"perlin3", OF(3, perlin<W>(p)), -1.04, 1.04, 0, 0.271, true},
+    {"perlin4", OF(4, perlin<W>(p)), -1.5, 1.5, 0, 0.293, true},
+    {"valuenoise1", OF(1, valuenoise<W>(p)), -1, 1, 0, 0.517, true},
+    {"valuenoise2", OF(2, valuenoise<W>(p)), -1, 1, 0, 0.454, true},
+    {"valuenoise3", OF(3, valuenoise<W>(p)), -1, 1, 0, 0.400, true},
+    {"valuenoise4", OF(4, valuenoise<W>(p)), -1, 1, 0, 0.354, true},
+    {"cellnoise1", OF(1, cellnoise<W>(p)), 0, 1, 0.5, 0.2887, false},
+    {"cellnoise3", OF(3, cellnoise<W>(p)), 0, 1, 0.5, 0.2887, false},
+    {"cellnoise4", OF(4, cellnoise<W>(p)), 0, 1, 0.5, 0.2887, false},
+    {"worley1", OF(1, worley<W>(p).first), 0, 1, 0.292, 0.201, false},
+    {"worley2", OF(2, worley<W>(p).first), 0, 1.4143, 0.429, 0.190, false},
+    {"worley3", OF(3, worley<W>(p).first), 0, 1.7321, 0.520, 0.172, false},
+    {"worley4", OF(4, worley<W>(p).first), 0, 2, 0.590, 0.156, false},
+    {"worley3 F2", OF(3, worley<W>(p).second), 0, 2.07, 0.717, 0.143, false},
+    {"worley3 cell", OF(3, worley<W>(p).third), 0, 1, 0.5, 0.2887, false},
+    {"worley3 manhattan", OF(3, worley<W>(p, number(1)).first), 0, 3, 0.765, 0.255, false},
+    {"worley3 chebyshev", OF(3, worley<W>(p, number(INFINITY)).first), 0, 1, 0.421, 0.140, false},
+    {"gabor1", OF(1, gabor<W>(p, number(4))), -8, 8, 0, 0.333, true},
+    {"gabor2", OF(2, gabor<W>(p, number(4))), -8, 8, 0, 0.333, true},
+    {"gabor3", OF(3, gabor<W>(p, number(4))), -8, 8, 0, 0.333, true},
+    {"gabor3 wave", OF(3, gabor<W>(p, all<3>(2.5))), -8, 8, 0, 0.333, true},
+    {"pnoise1", OF(1, pnoise<W>(p, all<1>(4096))), -1, 1, 0, 0.330, true},
+    {"pnoise2", OF(2, pnoise<W>(p, all<2>(113))), -1, 1, 0, 0.452, true},
+    {"pnoise3", OF(3, pnoise<W>(p, all<3>(113))), -1, 1, 0, 0.393, true},
+    {"pnoise4", OF(4, pnoise<W>(p, all<4>(113))), -1, 1, 0, 0.351, true},
+    {"pperlin3", OF(3, pperlin<W>(p, all<3>(113))), -1.04, 1.04, 0, 0.271, true},
+    {"pvaluenoise3", OF(3, pvaluenoise<W>(p, all<3>(113))), -1, 1, 0, 0.400, true},
+    {"pcellnoise3", OF(3, pcellnoise<W>(p, all<3>(113))), 0, 1, 0.5, 0.2887, false},
+    {"pworley3", OF(3, pworley<W>(p, all<3>(113), number(2)).first), 0, 1.7321, 0.520, 0.172, false},
+    {"pgabor2", OF(2, pgabor<W>(p, all<2>(113), number(4))), -8, 8, 0, 0.333, true},
+    {"vnoise3 y", OF(3, vnoise<W>(p)[1]), -1, 1, 0, 0.392, true},
+    {"vnoise4 z", OF(4, vnoise<W>(p)[2]), -1, 1, 0, 0.254, true},
+    {"vperlin3 z", OF(3, vperlin<W>(p)[2]), -1.04, 1.04, 0, 0.271, true},
+    {"vvaluenoise2 y", OF(2, vvaluenoise<W>(p)[1]), -1, 1, 0, 0.454, true},
+    {"vcellnoise3 z", OF(3, vcellnoise<W>(p)[2]), 0, 1, 0.5, 0.2887, false},
+    {"curl2 x", OF(2, curl<W>(p)[0]), -10, 10, 0, 2.60, false},
+    {"curl3 y", OF(3, curl<W>(p)[1]), -10, 10, 0, 2.48, false},
+    {"curl4 z", OF(4, curl<W>(p)[2]), -10, 10, 0, 1.555, false},
+};
+
+void PrintTo(const Noise& noise, std::ostream* out) { *out << noise.name; }
+std::string test_name(const testing::TestParamInfo<Noise>& info) {
+  std::string name = info.param.name;
+  std::ranges::replace(name, ' ', '_');
+  return name;
+}
+
+/// Points all over a block of side 1000, by a counter.
+struct Points {
+  uint64_t state = 1;
+  double next() {
+    state += 0x9e3779b97f4a7c15u;
+    uint64_t x = (state ^ (state >> 30)) * 0xbf58476d1ce4e5b9u;
+    x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
+    return double(int64_t(x ^ (x >> 31))) * 0x1p-63 * 500;
+  }
+  WV<4> block(int dimensions) {
+    WV<4> p = all<4>(0);
+    for (int i = 0; i < dimensions; ++i)
+      for (int lane = 0; lane < 8; ++lane)
+        p[i][lane] = next();
+    return p;
+  }
+};
+
+class NoiseRange : public testing::TestWithParam<Noise> {};
+
+TEST_P(NoiseRange, IsNeverLeftAndHasItsMeanAndSpread) {
+  const Noise& noise = GetParam();
+  const char* wanted = std::getenv("MOONSHADE_NOISE_SAMPLES");
+  const uint64_t blocks = (wanted == nullptr ? 160'000 : std::strtoull(wanted, nullptr, 10)) / 8;
+  W low = number(INFINITY), high = number(-INFINITY), sum = number(0), squares = number(0);
+  Points points;
+  for (uint64_t i = 0; i < blocks; ++i) {
+    const W x = noise.at(points.block(noise.dimensions));
+    low = min(low, x);
+    high = max(high, x);
+    sum += x;
+    squares += x * x;
+  }
+  const double least = __builtin_reduce_min(low), most = __builtin_reduce_max(high), count = 8.0 * double(blocks);
+  double mean = 0, square = 0;
+  for (int lane = 0; lane < 8; ++lane)
+    mean += sum[lane] / count, square += squares[lane] / count;
+  const double deviation = std::sqrt(square - mean * mean);
+  if (wanted != nullptr)
+    std::printf("%s: %.6f to %.6f, mean %.5f, standard deviation %.5f\n", noise.name, least, most, mean, deviation);
+  EXPECT_GE(least, noise.low);
+  EXPECT_LE(most, noise.high);
+  EXPECT_NEAR(mean, noise.mean, 0.02 * noise.deviation + 0.007);
+  EXPECT_NEAR(deviation, noise.deviation, 0.03 * noise.deviation);
+}
+
+INSTANTIATE_TEST_SUITE_P(Families, NoiseRange, testing::ValuesIn(kNoises), test_name);
+
+/// Along random lines through points on the borders of cells and of simplices.
+class NoiseContinuity : public testing::TestWithParam<Noise> {};
+
+TEST_P(NoiseContinuity, HoldsForValueAndSlopeOverBorders) {
+  const Noise& noise = GetParam();
+  if (!noise.smooth) GTEST_SKIP() << "not differentiable everywhere";
+  const double h = 1e-4;
+  Points points;
+  for (int i = 0; i < 3000; ++i) {
+    WV<4> p = points.block(noise.dimensions) * number(0.04), way = points.block(noise.dimensions) * number(0.002);
+    if (i % 3 == 0) p[0] = floor(p[0]);
+    if (i % 3 == 1 && noise.dimensions > 1) p[1] = p[0] + floor(p[1]);
+    if (i % 3 == 1 && noise.dimensions == 1) p[0] = floor(p[0]) + number(0.5);
+    const W before = noise.at(madd(way, number(-h), p)), here = noise.at(p), after = noise.at(madd(way, number(h), p));
+    const double step = __builtin_reduce_max(abs(after - before)) / (2 * h);
+    const double bend = __builtin_reduce_max(abs(after - here - here + before)) / (h * h);
+    ASSERT_LT(step, 60) << "point " << i;
+    ASSERT_LT(bend, 2500) << "point " << i; // a jump of the slope by 0.25 would do
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Families, NoiseContinuity, testing::ValuesIn(kNoises), test_name);
+
+// Periods -------------------------------------------------------------------------------------------------------------
+
+TEST(PeriodicNoise, RepeatsAfterWholePeriodsAndNotBefore) {
+  std::mt19937_64 random(11);
+  std::uniform_real_distribution<double> range(-9, 9);
+  const auto check = [&]<int N>(const char* name, auto noise_at) {
+    V<N> period;
+    for (int i = 0; i < N; ++i)
+      period[i] = 5 + 2 * i;
+    double change = 0;
+    for (int n = 0; n < 400; ++n) {
+      V<N> p, shifted, halfway;
+      for (int i = 0; i < N; ++i) {
+        p[i] = range(random);
+        shifted[i] = p[i] + period[i] * double(int(random() % 7) - 3);
+        halfway[i] = p[i] + 2;
+      }
+      ASSERT_NEAR(noise_at(p, period), noise_at(shifted, period), 1e-9) << name << N;
+      change += std::abs(noise_at(p, period) - noise_at(halfway, period)) / 400;
+    }
+    EXPECT_GT(change, 0.04) << name << N;
+  };
+  const auto check_all = [&]<int N>(std::integral_constant<int, N>) {
+    check.template operator()<N>("pnoise", [](V<N> p, V<N> q) { return pnoise<double>(p, q); });
+    check.template operator()<N>("pperlin", [](V<N> p, V<N> q) { return pperlin<double>(p, q); });
+    check.template operator()<N>("pvaluenoise", [](V<N> p, V<N> q) { return pvaluenoise<double>(p, q); });
+    check.template operator()<N>("pcellnoise", [](V<N> p, V<N> q) { return pcellnoise<double>(p, q); });
+    check.template operator()<N>("pworley", [](V<N> p, V<N> q) { return pworley<double>(p, q, 2.0).second; });
+    if constexpr (N < 4)
+      check.template operator()<N>("pgabor", [](V<N> p, V<N> q) { return pgabor<double>(p, q, 3.0); });
+  };
+  check_all(std::integral_constant<int, 1>());
+  check_all(std::integral_constant<int, 2>());
+  check_all(std::integral_constant<int, 3>());
+  check_all(std::integral_constant<int, 4>());
+}
+
+TEST(PeriodicNoise, TakesWholePeriodsFromOneOn) {
+  const V<3> p = {{0.3, -4.7, 2.9}};
+  const auto with = [&](double period) { return pvaluenoise<double>(p, V<3>{{period, period, period}}); };
+  EXPECT_EQ(with(5.9), with(5));
+  EXPECT_EQ(with(-5), with(5));
+  for (double one : {0.0, 0.5, -0.9, double(NAN)})
+    EXPECT_EQ(with(one), with(1)) << one;
+  for (double endless : {0x1p22, 1e300, double(INFINITY)})
+    EXPECT_EQ(with(endless), with(0x1p22)) << endless;
+  EXPECT_NE(with(0x1p22), valuenoise<double>(p)) << "negative cells are elsewhere";
+  const V<3> positive = {{0.3, 4.7, 2.9}};
+  EXPECT_EQ(pvaluenoise<double>(positive, V<3>{{64, 64, 64}}), valuenoise<double>(positive));
+  EXPECT_NEAR(pperlin<double>(positive, V<3>{{256, 256, 256}}), perlin<double>(positive), 1e-14);
+}
+
+TEST(PeriodicNoise, HoldsInFloatToTheEndOfTheRange) {
+  for (float x : {0.25f, 7.5f, -3.75f, 65536.25f, -1048576.5f}) {
+    const Vec<2, float> p = {{x, 0.5f}}, moved = {{x + 7 * 5, 0.5f}}, period = {{7, 3}};
+    EXPECT_EQ(pvaluenoise<float>(p, period), pvaluenoise<float>(moved, period)) << x;
+    EXPECT_EQ(pcellnoise<float>(p, period), pcellnoise<float>(moved, period)) << x;
+  }
+}
+
+// Vectors -------------------------------------------------------------------------------------------------------------
+
+TEST(VectorNoise, BeginsWithTheNoiseAndItsPartsAreIndependent) {
+  Points points;
+  double products[3] = {}, squares = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const V<3> p = {{points.next(), points.next(), points.next()}};
+    const Vec<3, double> v = vnoise<double>(p);
+    ASSERT_EQ(v[0], noise<double>(p));
+    ASSERT_NEAR(vperlin<double>(p)[0], perlin<double>(p), 1e-14);
+    ASSERT_EQ(vvaluenoise<double>(p)[0], valuenoise<double>(p));
+    ASSERT_EQ(vcellnoise<double>(p)[0], cellnoise<double>(p));
+    products[0] += v[0] * v[1], products[1] += v[1] * v[2], products[2] += v[2] * v[0];
+    squares += v[0] * v[0];
+  }
+  for (double product : products)
+    EXPECT_LT(std::abs(product / squares), 0.03);
+}
+
+// Worley --------------------------------------------------------------------------------------------------------------
+
+/// F1 and F2 over all cells up to three away, each feature point found anew.
+template <int N> std::array<double, 2> slow_worley(const V<N>& p, int metric) {
+  constexpr double unit = 1.0 / (1u << kFeatureBits<N>);
+  std::vector<double> distances;
+  int cells = 1;
+  for (int i = 0; i < N; ++i)
+    cells *= 7;
+  for (int n = 0; n < cells; ++n) {
+    uint32_t combined = 0;
+    V<N> corner;
+    for (int i = 0, rest = n; i < N; ++i, rest /= 7) {
+      corner[i] = std::floor(p[i]) + rest % 7 - 3;
+      combined ^= (uint32_t(int32_t(corner[i])) + 0x4b400000u) * kLatticePrimes[i];
+    }
+    uint32_t hash = combined * combined;
+    hash = (hash ^ hash >> 15) * 0x2c1b3c6du;
+    double sum = 0, square = 0, greatest = 0;
+    for (int i = 0; i < N; ++i) {
+      const double d = std::abs(corner[i] + (feature_bits<N>(hash, i) + 0.5) * unit - p[i]);
+      sum += d, square += d * d, greatest = std::max(greatest, d);
+    }
+    distances.push_back(metric == 0 ? std::sqrt(square) : metric == 1 ? sum : greatest);
+  }
+  std::ranges::partial_sort(distances, distances.begin() + 2);
+  return {distances[0], distances[1]};
+}
+
+TEST(Worley, FindsTheNearestTwoOfAllPoints) {
+  Points points;
+  const auto check = [&]<int N>(int count) {
+    for (int n = 0; n < count; ++n) {
+      V<N> p;
+      for (int i = 0; i < N; ++i)
+        p[i] = points.next();
+      for (int metric = 0; metric < 3; ++metric) {
+        const double exponent = metric == 0 ? 2 : metric == 1 ? 1 : INFINITY;
+        const auto expected = slow_worley<N>(p, metric);
+        const auto found = worley<double>(p, exponent);
+        ASSERT_NEAR(found.first, expected[0], 1e-12) << N << " " << metric;
+        ASSERT_NEAR(found.second, expected[1], 1e-12) << N << " " << metric;
+      }
+      const auto euclidean = worley<double>(p), general = worley<double>(p, 2.0);
+      ASSERT_EQ(euclidean.first, general.first);
+      ASSERT_EQ(euclidean.second, general.second);
+      ASSERT_EQ(euclidean.third, general.third);
+    }
+  };
+  check.operator()<1>(20000);
+  check.operator()<2>(10000);
+  check.operator()<3>(2000);
+  check.operator()<4>(150);
+}
+
+/// A distance cannot change by more than the way; the id changes only where F1 = F2.
+TEST(Worley, IsContinuousAndChangesIdsOnBorders) {
+  Points points;
+  const double h = 1e-3;
+  int borders = 0;
+  for (int n = 0; n < 100000; ++n) {
+    V<2> p = {{points.next(), points.next()}};
+    if (n % 2) p[0] = std::round(p[0]) - h / 2; // the next point is over the border of a cell
+    const V<2> q = {{p[0] + h, p[1]}};
+    const auto a = worley<double>(p), b = worley<double>(q);
+    ASSERT_LE(std::abs(a.first - b.first), h * 1.0001);
+    ASSERT_LE(std::abs(a.second - b.second), h * 1.0001);
+    ASSERT_LE(a.first, a.second);
+    if (a.third == b.third) continue;
+    ++borders;
+    ASSERT_LT(a.second - a.first, 2.0001 * h);
+  }
+  EXPECT_GT(borders, 50);
+}
+
+// Curl ----------------------------------------------------------------------------------------------------------------
+
+TEST(Curl, HasNoDivergence) {
+  Points points;
+  using D = Dual<double, 3>;
+  for (int n = 0; n < 2000; ++n) {
+    Vec<3, D> p;
+    for (int i = 0; i < 3; ++i) {
+      p[i] = D::of(points.next());
+      p[i].active = 1u << i;
+      p[i].d[i] = 1;
+    }
+    const Vec<3, D> v = curl<D>(p);
+    ASSERT_NEAR(v[0].d[0] + v[1].d[1] + v[2].d[2], 0, 1e-10);
+    const Vec<2, D> w = curl<D>(Vec<2, D>{{p[0], p[1]}});
+    ASSERT_NEAR(w[0].d[0] + w[1].d[1], 0, 1e-10);
+    const Vec<3, D> u = curl<D>(Vec<4, D>{{p[0], p[1], p[2], D(0.4)}});
+    ASSERT_NEAR(u[0].d[0] + u[1].d[1] + u[2].d[2], 0, 1e-10);
+  }
+}
+
+TEST(Curl, IsTheCurlOfThePotential) {
+  const V<3> p = {{0.31, -2.7, 5.13}};
+  const double h = 1e-5;
+  const auto slope = [&](int component, int axis) {
+    V<3> above = p, below = p;
+    above[axis] += h, below[axis] -= h;
+    return (vnoise<double>(above)[component] - vnoise<double>(below)[component]) / (2 * h);
+  };
+  const Vec<3, double> v = curl<double>(p);
+  EXPECT_NEAR(v[0], slope(2, 1) - slope(1, 2), 1e-7);
+  EXPECT_NEAR(v[1], slope(0, 2) - slope(2, 0), 1e-7);
+  EXPECT_NEAR(v[2], slope(1, 0) - slope(0, 1), 1e-7);
+  const V<2> q = {{0.31, -2.7}};
+  EXPECT_NEAR(curl<double>(q)[0],
+              (noise<double>(V<2>{{q[0], q[1] + h}}) - noise<double>(V<2>{{q[0], q[1] - h}})) / (2 * h), 1e-7);
+}
+
+// Isotropy and spectrum -----------------------------------------------------------------------------------------------
+
+/// The mean square of the noise's slope in directions of the plane, by differences.
+std::array<double, 8> slopes(W (*noise_at)(const WV<4>&), int dimensions) {
+  std::array<double, 8> result = {};
+  Points points;
+  for (int k = 0; k < 8; ++k) {
+    const double angle = std::numbers::pi * k / 8, h = 1e-3;
+    for (int n = 0; n < 6000; ++n) {
+      WV<4> p = points.block(dimensions), q = p;
+      q[0] += number(h * std::cos(angle));
+      q[1] += number(h * std::sin(angle));
+      const W slope = (noise_at(q) - noise_at(p)) / number(h), square = slope * slope;
+      result[size_t(k)] += __builtin_reduce_max(square) > 1e6 ? 0 : square[0] + square[3] + square[5];
+    }
+  }
+  return result;
+}
+double unevenness(const std::array<double, 8>& values) {
+  return *std::ranges::max_element(values) / *std::ranges::min_element(values);
+}
+
+W simplex2(const WV<4>& p) { return noise<W>(first_of<2>(p)); }
+W simplex3(const WV<4>& p) { return noise<W>(first_of<3>(p)); }
+W simplex4(const WV<4>& p) { return noise<W>(p); }
+W periodic2(const WV<4>& p) { return pnoise<W>(first_of<2>(p), all<2>(113)); }
+W periodic3(const WV<4>& p) { return pnoise<W>(first_of<3>(p), all<3>(113)); }
+W gabor2(const WV<4>& p) { return gabor<W>(first_of<2>(p), number(4)); }
+W wave2(const WV<4>& p) { return gabor<W>(first_of<2>(p), WV<2>{{number(4), number(0)}}); }
+
+TEST(Isotropy, SlopesAreAlikeInAllDirections) {
+  EXPECT_LT(unevenness(slopes(simplex2, 2)), 1.12);
+  EXPECT_LT(unevenness(slopes(simplex3, 3)), 1.12);
+  EXPECT_LT(unevenness(slopes(simplex4, 4)), 1.12);
+  EXPECT_LT(unevenness(slopes(periodic2, 2)), 1.12);
+  EXPECT_LT(unevenness(slopes(periodic3, 3)), 1.12);
+  EXPECT_LT(unevenness(slopes(gabor2, 2)), 1.12);
+  EXPECT_GT(unevenness(slopes(wave2, 2)), 5) << "the measure tells a direction";
+}
+
+/// Power by frequency along x, in units of the mean over all: 256 samples, 8 to the unit, under a Hann window.
+std::vector<double> spectrum(W (*noise_at)(const WV<4>&), int dimensions) {
+  constexpr int count = 256;
+  std::vector<double> power(count / 2);
+  Points points;
+  for (int line = 0; line < 40; ++line) {
+    const WV<4> start = points.block(dimensions);
+    std::vector<double> samples;
+    for (int i = 0; i < count; ++i) {
+      WV<4> p = start;
+      p[0] += number(i / 8.0);
+      samples.push_back(noise_at(p)[0] * (1 - std::cos(2 * std::numbers::pi * i / count)));
+    }
+    for (int f = 0; f < count / 2; ++f) {
+      double re = 0, im = 0;
+      for (int i = 0; i < count; ++i) {
+        const double angle = 2 * std::numbers::pi * f * i / count;
+        re += samples[size_t(i)] * std::cos(angle), im += samples[size_t(i)] * std::sin(angle);
+      }
+      power[size_t(f)] += re * re + im * im;
+    }
+  }
+  double total = 0;
+  for (double p : power)
+    total += p;
+  for (double& p : power)
+    p /= total;
+  return power;
+}
+
+/// The part of the power between two frequencies, in waves to the unit.
+double band(const std::vector<double>& power, double low, double high) {
+  double sum = 0;
+  for (size_t f = 0; f < power.size(); ++f)
+    if (double(f) / 32 >= low && double(f) / 32 < high) sum += power[f];
+  return sum;
+}
+
+TEST(Spectrum, SimplexIsABandBelowTwoWavesAndGaborWhereItIsPut) {
+  for (auto simplex : {simplex2, simplex3, simplex4, periodic2, periodic3}) {
+    const auto power = spectrum(simplex, simplex == simplex4 ? 4 : simplex == simplex2 || simplex == periodic2 ? 2 : 3);
+    EXPECT_GT(band(power, 0, 2), 0.98);
+    EXPECT_LT(band(power, 3, 4), 0.001);
+    EXPECT_LT(*std::ranges::max_element(power), 0.06) << "no line stands out";
+  }
+  EXPECT_GT(band(spectrum(wave2, 2), 3, 4), 0.3);
+  EXPECT_GT(band(spectrum([](const WV<4>& p) { return gabor<W>(first_of<2>(p), WV<2>{{number(2.5), number(0)}}); }, 2),
+                 1.5, 3.5),
+            0.98);
+}
+
+/// Lattice artefacts would show as likeness of points whole units apart.
+TEST(Spectrum, PointsUnitsApartAreNotAlike) {
+  for (auto noise_at : {simplex2, simplex3, simplex4, periodic3}) {
+    for (int axis = 0; axis < 2; ++axis)
+      for (int units = 2; units < 6; ++units) {
+        Points points;
+        double product = 0, square = 0;
+        for (int n = 0; n < 10000; ++n) {
+          WV<4> p = points.block(4), q = p;
+          q[axis] += number(units);
+          const W a = noise_at(p), b = noise_at(q);
+          for (int lane = 0; lane < 8; ++lane)
+            product += a[lane] * b[lane], square += a[lane] * a[lane];
+        }
+        EXPECT_LT(std::abs(product / square), 0.025) << axis << " " << units;
+      }
+  }
+}
+
+// Far away and undefined ----------------------------------------------------------------------------------------------
+
+TEST(NoiseFarAway, HasCellsOfItsOwnToTwoToThe22) {
+  for (float x : {1e4f, 1e5f, 1e6f, 4e6f, -4e6f}) {
+    EXPECT_NE(cellnoise<float>(x), cellnoise<float>(x + 1)) << x;
+    EXPECT_EQ(cellnoise<float>(x), float(cellnoise<double>(double(x)))) << x;
+    EXPECT_EQ(worley<float>(x).third, float(worley<double>(double(x)).third)) << x;
+  }
+  // In float, a coordinate of 2^16 still has steps of 1/128 unit.
+  const Vec<3, float> p = {{65536.25f, -65536.5f, 1000.75f}};
+  const V<3> q = {{65536.25, -65536.5, 1000.75}};
+  EXPECT_NEAR(noise<float>(p), noise<double>(q), 0.1);
+  EXPECT_NEAR(perlin<float>(p), perlin<double>(q), 1e-5);
+  EXPECT_NEAR(valuenoise<float>(p), valuenoise<double>(q), 1e-5);
+  EXPECT_NEAR(worley<float>(p).first, worley<double>(q).first, 1e-5);
+  EXPECT_NEAR((noise<double>(V<3>{{1e9 + 0.3, 0.5, 0.25}})), (noise<double>(V<3>{{1e9 + 0.3 + 1e-6, 0.5, 0.25}})),
+              1e-4);
+}
+
+TEST(NoiseFarAway, IsWithinItsRangeOrNaN) {
+  for (double far : {0x1p23, 1e9, -1e15, 1e30, 1e300})
+    for (const Noise& noise : kNoises) {
+      WV<4> p = all<4>(0.3);
+      p[0] = number(far);
+      const double x = noise.at(p)[0];
+      EXPECT_TRUE(std::isnan(x) || (x >= noise.low - 1 && x <= noise.high + 1)) << noise.name << " " << far << " " << x;
+    }
+}
+
+TEST(NoiseFarAway, IsNaNForNaNAndInfinity) {
+  for (double undefined : {double(NAN), double(INFINITY), -double(INFINITY)})
+    for (const Noise& noise : kNoises) {
+      const std::string name = noise.name;
+      if (name.find("cell") != std::string::npos) continue; // cells like others
+      for (int axis = 0; axis < noise.dimensions; ++axis) {
+        WV<4> p = all<4>(0.3);
+        p[axis] = number(undefined);
+        EXPECT_TRUE(std::isnan(noise.at(p)[0])) << name << " " << undefined;
+      }
+    }
+}
+
+// Sums ----------------------------------------------------------------------------------------------------------------
+
+const V<3> kPlace = {{0.3, -1.7, 2.9}};
+
+TEST(Fractal, SumsNothingThatThePixelCannotSee) {
+  // An eighth of a unit: two octaves are seen whole, the third not at all.
+  EXPECT_EQ((fbm<double>(kPlace, 6.0, 2.0, 0.5, 0.125)), (fbm<double>(kPlace, 2.0, 2.0, 0.5, 0.0)));
+  EXPECT_EQ((fbm<double>(kPlace, 6.0, 2.0, 0.5, 1e-9)), (fbm<double>(kPlace, 6.0, 2.0, 0.5, 0.0)));
+  for (double much : {0.5, 3.0, 1e30, double(INFINITY)}) {
+    EXPECT_EQ((fbm<double>(kPlace, 6.0, 2.0, 0.5, much)), 0) << much;
+    EXPECT_NEAR((turbulence<double>(kPlace, 3.0, 2.0, 0.5, much)), 1.75 * kMeanMagnitude<3>, 1e-12) << much;
+    EXPECT_EQ((warp<double>(kPlace, 6.0, 2.0, 0.5, much, 1.0)), 0) << much;
+    EXPECT_NEAR((ridged<double>(kPlace, 1.0, 2.0, 0.5, much)), kMeanRidge<3>, 1e-12) << much;
+    EXPECT_NEAR((hybrid<double>(kPlace, 1.0, 2.0, 0.5, much, 0.7)), 0.7, 1e-12) << much;
+  }
+  for (double none : {0.0, -1.0, double(NAN)})
+    EXPECT_EQ((ridged<double>(kPlace, 6.0, 2.0, 0.5, none)), (ridged<double>(kPlace, 6.0, 2.0, 0.5, 0.0))) << none;
+}
+
+TEST(Fractal, FadesWithTheWidthAndTheOctavesWithoutSteps) {
+  const auto at = [](double octaves, double width, int which) {
+    return which == 0   ? fbm<double>(kPlace, octaves, 2.0, 0.5, width)
+           : which == 1 ? turbulence<double>(kPlace, octaves, 2.0, 0.5, width)
+           : which == 2 ? ridged<double>(kPlace, octaves, 2.0, 0.5, width)
+           : which == 3 ? hybrid<double>(kPlace, octaves, 2.0, 0.5, width, 0.7)
+                        : warp<double>(kPlace, octaves, 2.0, 0.5, width, 0.5);
+  };
+  for (int which = 0; which < 5; ++which)
+    for (double t = 0.01; t < 1; t += 0.0005) {
+      EXPECT_NEAR(at(6, t * 0.6, which), at(6, (t + 0.0005) * 0.6, which), 0.15) << which << " width " << t;
+      EXPECT_NEAR(at(6 * t, 0, which), at(6 * t + 0.001, 0, which), 0.02) << which << " octaves " << 6 * t;
+    }
+}
+
+/// Over every pixel's extent, what the footprint leaves is near the mean of what it left out.
+TEST(Fractal, TheFadedSumIsNearThePixelsMean) {
+  double error = 0, unfiltered = 0;
+  const double width = 0.3;
+  Points points;
+  for (int n = 0; n < 300; ++n) {
+    const V<2> p = {{points.next(), points.next()}};
+    double mean = 0;
+    for (int i = 0; i < 64; ++i)
+      mean += turbulence<double>(V<2>{{p[0] + width * (i % 8 - 3.5) / 8, p[1] + width * (i / 8 - 3.5) / 8}}, 6.0, 2.0,
+                                 0.5, 0.0) /
+              64;
+    error += std::abs(turbulence<double>(p, 6.0, 2.0, 0.5, width) - mean);
+    unfiltered += std::abs(turbulence<double>(p, 6.0, 2.0, 0.5, 0.0) - mean);
+  }
+  EXPECT_LT(error, 0.8 * unfiltered);
+}
+
+TEST(Fractal, RidgesAndHybridsFollowTheirFormulas) {
+  double before = 1, sum = 0;
+  for (int i = 0; i < 4; ++i) {
+    const double n = 1 - std::abs(noise<double>(kPlace * double(1 << i))), signal = n * n * before;
+    sum += signal * std::ldexp(1, -i);
+    before = std::min(2 * signal, 1.0);
+  }
+  EXPECT_DOUBLE_EQ((ridged<double>(kPlace, 4.0, 2.0, 0.5, 0.0)), sum);
+  before = 1, sum = 0;
+  for (int i = 0; i < 4; ++i) {
+    before = (noise<double>(kPlace * double(1 << i)) + 0.7) * std::ldexp(1, -i) * std::min(before, 1.0);
+    sum += before;
+  }
+  EXPECT_DOUBLE_EQ((hybrid<double>(kPlace, 4.0, 2.0, 0.5, 0.0, 0.7)), sum);
+  EXPECT_EQ((warp<double>(kPlace, 5.0, 2.0, 0.5, 0.0, 0.0)), (fbm<double>(kPlace, 5.0, 2.0, 0.5, 0.0)));
+}
+
+} // namespace
+} // namespace moonshade::stdlib
