@@ -78,6 +78,60 @@ std::span<const LibraryDerivative> library_derivatives() {
   return derivatives;
 }
 
+namespace {
+
+LibrarySecondDerivative second_of(const LibraryDerivative& first, std::string_view symbol) {
+  LibrarySecondDerivative second{first.function, &first};
+  const unsigned columns = second.columns(), lists = 1 + columns + columns * (columns + 1) / 2;
+  LibraryFunction& function = second.function;
+  function.symbol = symbol;
+  function.result_count = 0;
+  for (unsigned list = 0; list < lists; ++list)
+    for (unsigned r = 0; r < first.row->result_count; ++r) {
+      const ValueType type = first.row->results[r];
+      const bool is_number = type != ValueType::Boolean && type != ValueType::Integer;
+      function.results[function.result_count++] = is_number ? type : ValueType::Number;
+    }
+  return second;
+}
+
+const LibraryDerivative& derivative_named(std::string_view symbol) {
+  return *std::ranges::find(library_derivatives(), symbol,
+                            [](const LibraryDerivative& derivative) { return derivative.function.symbol; });
+}
+
+} // namespace
+
+std::span<const LibrarySecondDerivative> library_second_derivatives() {
+#define SECOND_DERIVATIVE(symbol, suffix, parameters)                                                                  \
+  second_of(derivative_named(#symbol "__" #suffix), #symbol "__2" #suffix),
+  static const std::vector<LibrarySecondDerivative> seconds = {
+#include "stdlib/second_derivatives.def"
+  };
+  return seconds;
+}
+
+const LibrarySecondDerivative* library_second_derivative(const LibraryDerivative& first) {
+  const auto found = std::ranges::find(library_second_derivatives(), &first, &LibrarySecondDerivative::first);
+  return found == library_second_derivatives().end() ? nullptr : &*found;
+}
+
+bool has_second_derivatives(const LibraryFunction& row) {
+  if (is_linear_algebra(row)) return true;
+  const auto is_of_row = [&row](const LibraryDerivative& derivative) { return derivative.row == &row; };
+  if (std::ranges::none_of(library_derivatives(), is_of_row)) return true;
+  return std::ranges::any_of(library_second_derivatives(),
+                             [&](const LibrarySecondDerivative& second) { return is_of_row(*second.first); });
+}
+
+bool is_linear_algebra(const LibraryFunction& row) {
+  static constexpr std::string_view kNames[] = {"dot",     "cross",   "length",      "distance",   "normalize",
+                                                "reflect", "refract", "faceforward", "determinant"};
+  return std::ranges::find(kNames, row.name) != std::end(kNames) || (row.name == "rotate" && row.parameter_count == 3);
+}
+
+const LibraryDerivative& derivative_of(const LibraryFunction& function) { return derivative_named(function.symbol); }
+
 const LibraryDerivative* library_derivative(const LibraryFunction& row, unsigned parameters) {
   const LibraryDerivative* best = nullptr;
   for (const LibraryDerivative& derivative : library_derivatives()) {

@@ -58,6 +58,10 @@ concept DualLane = is_dual<T>;
 template <class T>
 concept PlainLane = !is_dual<T>;
 
+/// The number without derivatives of any order.
+template <PlainLane L> MS_INLINE L plain(L x) { return x; }
+template <DualLane D> MS_INLINE auto plain(const D& x) { return plain(x.v); }
+
 // Combinations --------------------------------------------------------------------------------------------------------
 
 /// `value`, with derivative f(k) in each direction of `active`.
@@ -98,9 +102,26 @@ template <int N, DualLane D> MS_INLINE unsigned active_of(const Vec<N, D>& v) {
   return [&]<size_t... I>(std::index_sequence<I...>)
              __attribute__((always_inline)) { return (v[I].active | ...); }(std::make_index_sequence<N>());
 }
+/// Of the derivatives' own derivatives.
+template <DualLane D> MS_INLINE unsigned inner_active_of(const D& x) {
+  return [&]<size_t... K>(std::index_sequence<K...>) __attribute__((always_inline)) {
+    return x.v.active | ((x.on(K) ? x.d[K].active : 0u) | ...);
+  }(std::make_index_sequence<D::directions>());
+}
+template <int N, DualLane D> MS_INLINE unsigned inner_active_of(const Vec<N, D>& v) {
+  return [&]<size_t... I>(std::index_sequence<I...>)
+             __attribute__((always_inline)) { return (inner_active_of(v[I]) | ...); }(std::make_index_sequence<N>());
+}
 /// x, with the directions of others too, where its derivatives are 0.
 template <DualLane D, class... A> MS_INLINE D joined(D x, const A&... others) {
   x.active |= (active_of(others) | ...);
+  if constexpr (is_dual<typename D::Lane>) {
+    const unsigned inner = inner_active_of(x) | (inner_active_of(others) | ...);
+    x.v.active |= inner;
+    [&]<size_t... K>(std::index_sequence<K...>) __attribute__((always_inline)) {
+      ((x.on(K) ? void(x.d[K].active |= inner) : void()), ...);
+    }(std::make_index_sequence<D::directions>());
+  }
   return x;
 }
 template <int N, class L, class... A> MS_INLINE Vec<N, L> joined(const Vec<N, L>& v, const A&... others) {
@@ -163,12 +184,9 @@ template <DualLane D> MS_INLINE D flip_sign(D x, Bits<D> sign) {
   return with_tangents<D>(flip_sign(x.v, sign), x.active,
                           [&](int k) __attribute__((always_inline)) { return flip_sign(x.d[k], sign); });
 }
-template <DualLane D> MS_INLINE D abs(D x) {
-  return flip_sign(x, bit_cast<Bits<D>>(x.v) & sign_bit<typename D::Lane>());
-}
+template <DualLane D> MS_INLINE D abs(D x) { return flip_sign(x, bit_cast<Bits<D>>(plain(x)) & sign_bit<D>()); }
 template <DualLane D> MS_INLINE D copy_sign(D magnitude, D sign) {
-  using L = typename D::Lane;
-  return flip_sign(magnitude, (bit_cast<Bits<D>>(magnitude.v) ^ bit_cast<Bits<D>>(sign.v)) & sign_bit<L>());
+  return flip_sign(magnitude, (bit_cast<Bits<D>>(plain(magnitude)) ^ bit_cast<Bits<D>>(plain(sign))) & sign_bit<D>());
 }
 
 template <DualLane D> MS_INLINE D floor(D x) { return D::of(floor(x.v)); }
@@ -229,7 +247,10 @@ template <class L> struct SineCosine {
   L sine, cosine;
 };
 template <class L> MS_INLINE SineCosine<L> sine_cosine(L x) {
-  if constexpr (is_f32<L>) {
+  if constexpr (is_dual<L>) {
+    auto both = sine_cosine(x.v);
+    return {chain<L>(both.sine, x, both.cosine), chain<L>(both.cosine, x, -both.sine)};
+  } else if constexpr (is_f32<L>) {
     auto angle = f32::reduce(x);
     return {f32::sine(angle, 0), f32::sine(angle, 1)};
   } else {

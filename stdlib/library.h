@@ -31,7 +31,7 @@ inline constexpr std::array<unsigned, 5> kWidths = {1, 4, 8, 16, 32};
 /// One overload of a function of the library.
 struct LibraryFunction {
   static constexpr unsigned kMaxParameters = 8;
-  static constexpr unsigned kMaxResults = 32;
+  static constexpr unsigned kMaxResults = 128; ///< of second derivatives; the rows themselves have fewer
 
   /// As Lua writes it: "noise", "math.sin". Operators that are more than one instruction begin with "op.": "op.mod".
   std::string_view name;
@@ -82,12 +82,50 @@ std::span<const LibraryDerivative> library_derivatives();
 /// is. (dual.h states what derivatives are at kinks.)
 const LibraryDerivative* library_derivative(const LibraryFunction& row, unsigned parameters);
 
-/// The bitcode of all exports for one domain, without and of the derivatives. Static storage.
+/// A derivative to the second order, by the same parameters, which have C components together. Its results are lists
+/// of what the row gives, an integer or boolean as the number 0: the values; their derivatives by each component (the
+/// columns); and for each pair j <= k of columns, in the order (0, 0), (0, 1), ..., (1, 1), ..., the derivatives of
+/// column j by the component of column k. Its one export is for one lane: it takes one pointer to all results, number
+/// after number, and then eight to arguments, of which it reads those that the row has.
+struct LibrarySecondDerivative {
+  LibraryFunction function;
+  const LibraryDerivative* first;
+
+  unsigned columns() const { return first->function.result_count / first->row->result_count - 1u; }
+  /// Which list has the derivative of column j by the component of column k, in any order.
+  unsigned list(unsigned j, unsigned k) const {
+    return j <= k ? 1 + columns() + j * columns() - j * (j + 1) / 2 + k : list(k, j);
+  }
+};
+
+/// All that there are (second_derivatives.def).
+std::span<const LibrarySecondDerivative> library_second_derivatives();
+
+/// That of `first`; null where the library has none.
+const LibrarySecondDerivative* library_second_derivative(const LibraryDerivative& first);
+
+/// Functions of vectors and matrices that the compiler takes apart into arithmetic before it differentiates twice.
+bool is_linear_algebra(const LibraryFunction& row);
+
+/// Whether a row can be differentiated twice, by some of its parameters at least; so can one that is constant.
+bool has_second_derivatives(const LibraryFunction& row);
+
+/// The derivative whose function this is.
+const LibraryDerivative& derivative_of(const LibraryFunction& function);
+
+/// The bitcode of all exports for one domain, without and of the derivatives; second derivatives are for one lane.
+/// Static storage.
 std::span<const char> library_bitcode(Precision precision, unsigned width);
 std::span<const char> derivative_bitcode(Precision precision, unsigned width);
+std::span<const char> second_derivative_bitcode(Precision precision);
 
-/// Whether an export's name is that of a derivative: ms_<symbol>__<suffix>_<f32|f64>_w<W>.
-constexpr bool is_derivative_export(std::string_view name) { return name.find("__") != std::string_view::npos; }
+/// How often the row of this symbol or export is differentiated: ms_<symbol>__<suffix>_<f32|f64>_w<W>, with a 2 before
+/// the suffix where it is to the second order.
+constexpr unsigned export_order(std::string_view name) {
+  const size_t at = name.find("__");
+  return at == std::string_view::npos ? 0 : name.substr(at + 2).starts_with('2') ? 2 : 1;
+}
+constexpr bool is_derivative_export(std::string_view name) { return export_order(name) != 0; }
 
 /// A C function that the bitcode calls by name (the C library's own sin, pow, ... under names of ours, so that no
 /// optimiser takes them for the functions it knows and rounds them another way).

@@ -88,6 +88,15 @@ alignas(8) constexpr char f64_w32[] = {
 constexpr Blobs blobs = {{f32_w1, f32_w4, f32_w8, f32_w16, f32_w32}, {f64_w1, f64_w4, f64_w8, f64_w16, f64_w32}};
 } // namespace derivatives
 
+namespace second {
+alignas(8) constexpr char f32[] = {
+#embed "second_derivatives_f32_w1.bc"
+};
+alignas(8) constexpr char f64[] = {
+#embed "second_derivatives_f64_w1.bc"
+};
+} // namespace second
+
 } // namespace
 
 std::span<const char> library_bitcode(Precision precision, unsigned width) {
@@ -95,6 +104,10 @@ std::span<const char> library_bitcode(Precision precision, unsigned width) {
 }
 std::span<const char> derivative_bitcode(Precision precision, unsigned width) {
   return find(derivatives::blobs, precision, width);
+}
+std::span<const char> second_derivative_bitcode(Precision precision) {
+  if (precision == Precision::F32) return second::f32;
+  return second::f64;
 }
 
 } // namespace moonshade

@@ -197,6 +197,10 @@ Generated generate(const ir::Module& module, const Options& options) {
   parts.module = std::make_unique<llvm::Module>("shader", parts.context);
   parts.module->setTargetTriple(parts.target.machine->getTargetTriple().str());
   parts.module->setDataLayout(parts.target.machine->createDataLayout());
+  if (!module.problems.empty()) {
+    generated.error = module.problems.front();
+    return generated;
+  }
   if (const uint64_t size = operations(module); size > kMaxOperations) {
     generated.error = "the shader comes to " + std::to_string(size) + " operations";
     generated.exceeded_limit = kMaxOperations;

@@ -75,11 +75,15 @@ llvm::Type* ModuleEmitter::results_type(const ir::Function& function, const ir::
   for (size_t i = 0; i < function.results.size(); ++i)
     for (unsigned c = 0; c < component_count(function.results[i]); ++c)
       parts.push_back(domain.part(function.results[i], uniformity.results_varying[i] && domain.width > 1));
-  if (parts.empty()) return llvm::Type::getVoidTy(domain.context);
-  // LLVM returns a third and fourth scalar double in x87 registers, slowly, and copies them from there by instructions
-  // that do not exist for xmm16 to xmm31. More integers than there are registers for make it return all in memory.
-  if (std::ranges::count_if(parts, [](llvm::Type* part) { return part->isFloatingPointTy(); }) > 2)
-    parts.push_back(llvm::ArrayType::get(llvm::Type::getInt64Ty(domain.context), 4));
+  return parts.empty() ? llvm::Type::getVoidTy(domain.context) : returned_struct(domain, std::move(parts));
+}
+
+llvm::StructType* returned_struct(const Domain& domain, std::vector<llvm::Type*> parts) {
+  const auto is_scalar = [](llvm::Type* part) { return part->isFloatingPointTy(); };
+  const auto scalars = std::ranges::count_if(parts, is_scalar);
+  if (scalars > 2)
+    for (auto count = scalars; count < 5; ++count)
+      parts.push_back(domain.part(ValueType::Number, false));
   return llvm::StructType::get(domain.context, parts);
 }
 

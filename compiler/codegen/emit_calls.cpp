@@ -39,29 +39,116 @@ void write_wrapper(llvm::Function& wrapper, llvm::Function& body, const LibraryF
   builder.CreateRet(result);
 }
 
+/// The same around the export of a second derivative, which is for one lane and takes one pointer to its results: it is
+/// called for one lane after the other.
+void write_lane_loop(llvm::Function& wrapper, llvm::Function& body, const LibraryFunction& row, const Domain& domain,
+                     bool varying) {
+  Builder builder(llvm::BasicBlock::Create(domain.context, "entry", &wrapper));
+  struct Memory {
+    ValueType type;
+    llvm::Value *lanes, *one; ///< of all lanes; of the lane at work
+    llvm::Value* at(Builder& builder, const Domain& domain, bool varying, unsigned component) const {
+      return builder.CreateConstInBoundsGEP1_64(domain.memory_part(type, varying), lanes, component);
+    }
+  };
+  const auto memory = [&](ValueType type, unsigned count) {
+    const auto allocate = [&](bool wide) {
+      return builder.CreateAlloca(llvm::ArrayType::get(domain.memory_part(type, wide), count));
+    };
+    return Memory{type, allocate(varying), allocate(false)};
+  };
+  unsigned numbers = 0;
+  for (unsigned i = 0; i < row.result_count; ++i)
+    numbers += component_count(row.results[i]);
+  const Memory results = memory(ValueType::Number, numbers);
+  std::vector<Memory> arguments;
+  llvm::Argument* argument = wrapper.arg_begin();
+  for (unsigned i = 0; i < row.parameter_count; ++i) {
+    const ValueType type = row.parameters[i];
+    arguments.push_back(memory(type, component_count(type)));
+    for (unsigned c = 0; c < component_count(type); ++c)
+      builder.CreateStore(to_memory(builder, domain, type, argument++), arguments[i].at(builder, domain, varying, c));
+  }
+
+  llvm::BasicBlock* before = builder.GetInsertBlock();
+  llvm::BasicBlock* loop = llvm::BasicBlock::Create(domain.context, "lane", &wrapper);
+  llvm::BasicBlock* end = llvm::BasicBlock::Create(domain.context, "end", &wrapper);
+  builder.CreateBr(loop);
+  builder.SetInsertPoint(loop);
+  llvm::PHINode* lane = builder.CreatePHI(builder.getInt64Ty(), 2);
+  lane->addIncoming(builder.getInt64(0), before);
+  // One component of the lane, in the memory of all and in its own.
+  const auto places = [&](const Memory& of, unsigned c) {
+    llvm::Type* type = domain.memory_part(of.type, false);
+    return std::pair(builder.CreateInBoundsGEP(type, of.at(builder, domain, varying, c), lane),
+                     builder.CreateConstInBoundsGEP1_64(type, of.one, c));
+  };
+  const auto copy = [&](ValueType type, llvm::Value* from, llvm::Value* to) {
+    builder.CreateStore(builder.CreateLoad(domain.memory_part(type, false), from), to);
+  };
+  std::vector<llvm::Value*> pointers{results.one};
+  for (const Memory& of : arguments) {
+    for (unsigned c = 0; c < component_count(of.type); ++c) {
+      const auto [all, one] = places(of, c);
+      copy(of.type, all, one);
+    }
+    pointers.push_back(of.one);
+  }
+  pointers.resize(1 + LibraryFunction::kMaxParameters,
+                  llvm::ConstantPointerNull::get(llvm::PointerType::get(domain.context, 0)));
+  builder.CreateCall(&body, pointers);
+  for (unsigned c = 0; c < numbers; ++c) {
+    const auto [all, one] = places(results, c);
+    copy(ValueType::Number, one, all);
+  }
+  llvm::Value* next = builder.CreateAdd(lane, builder.getInt64(1));
+  lane->addIncoming(next, loop);
+  builder.CreateCondBr(builder.CreateICmpEQ(next, builder.getInt64(varying ? domain.width : 1)), end, loop);
+
+  builder.SetInsertPoint(end);
+  llvm::Value* result = llvm::Constant::getNullValue(wrapper.getReturnType());
+  for (unsigned c = 0; c < numbers; ++c) {
+    llvm::Value* loaded =
+        builder.CreateLoad(domain.memory_part(ValueType::Number, varying), results.at(builder, domain, varying, c));
+    result = builder.CreateInsertValue(result, from_memory(builder, ValueType::Number, loaded), c);
+  }
+  builder.CreateRet(result);
+}
+
 } // namespace
 
 llvm::Function* ModuleEmitter::library_function(const LibraryFunction& row, bool varying) {
+  const bool lane_by_lane = export_order(row.symbol) == 2;
   const unsigned width = varying ? domain.width : 1;
   const char* representation = domain.precision == Precision::F32 ? "f32" : "f64";
-  const std::string name = std::string(row.symbol) + "_" + representation + "_w" + std::to_string(width);
+  const std::string prefix = std::string(row.symbol) + "_" + representation + "_w";
+  const std::string name = prefix + std::to_string(width);
   if (llvm::Function* known = llvm_module.getFunction("moonshade_" + name)) return known;
   llvm::Type* pointer = llvm::PointerType::get(domain.context, 0);
-  const std::vector<llvm::Type*> pointers(size_t{row.result_count} + row.parameter_count, pointer);
+  const size_t count =
+      lane_by_lane ? 1 + LibraryFunction::kMaxParameters : size_t{row.result_count} + row.parameter_count;
+  const std::vector<llvm::Type*> pointers(count, pointer);
   llvm::Type* nothing = llvm::Type::getVoidTy(domain.context);
-  llvm::Function* body = new_function(llvm::FunctionType::get(nothing, pointers, false), "ms_" + name, false);
+  const std::string export_name = "ms_" + (lane_by_lane ? prefix + "1" : name);
+  llvm::Function* body = llvm_module.getFunction(export_name);
+  if (body == nullptr) body = new_function(llvm::FunctionType::get(nothing, pointers, false), export_name, false);
   std::vector<llvm::Type*> results, parameters;
   for (unsigned i = 0; i < row.result_count; ++i)
     results.insert(results.end(), component_count(row.results[i]), domain.part(row.results[i], varying));
   for (unsigned i = 0; i < row.parameter_count; ++i)
     parameters.insert(parameters.end(), component_count(row.parameters[i]), domain.part(row.parameters[i], varying));
-  llvm::Type* result = llvm::StructType::get(domain.context, results);
+  llvm::Type* result = returned_struct(domain, std::move(results));
   llvm::Function* wrapper = new_function(llvm::FunctionType::get(result, parameters, false), "moonshade_" + name, true);
   // Pure and total, so calls of it can be merged and moved before anything is inlined.
   wrapper->setDoesNotAccessMemory();
   wrapper->setWillReturn();
   wrapper->setSpeculatable();
-  write_wrapper(*wrapper, *body, row, domain, varying);
+  if (lane_by_lane) {
+    wrapper->addFnAttr(llvm::Attribute::NoInline); // it is long, and not worth repeating
+    write_lane_loop(*wrapper, *body, row, domain, varying);
+  } else {
+    write_wrapper(*wrapper, *body, row, domain, varying);
+  }
   return wrapper;
 }
 

@@ -69,6 +69,11 @@ struct FaultState {
 };
 enum BlockFlag : uint8_t { kRunning = 0, kAllFaulted = 1, kOverflowed = 2 };
 
+/// The type of results that are not inlined away. Of more than two scalars, the third and fourth would come back in
+/// registers of the x87, which LLVM 19's fast path reads with an instruction that cannot name xmm16 and up; with some
+/// to spare, all come back in memory.
+llvm::StructType* returned_struct(const Domain& domain, std::vector<llvm::Type*> parts);
+
 class ModuleEmitter {
 public:
   ModuleEmitter(llvm::Module& llvm_module, const ir::Module& module, const Domain& domain,

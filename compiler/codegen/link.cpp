@@ -13,22 +13,22 @@ namespace moonshade::codegen {
 namespace {
 
 /// Derivatives have bitcode of their own.
-bool is_export_of(const llvm::Function& function, unsigned width, bool derivative) {
+bool is_export_of(const llvm::Function& function, unsigned width, unsigned order) {
   return function.isDeclaration() && function.getName().starts_with("ms_") &&
-         function.getName().ends_with("_w" + std::to_string(width)) &&
-         is_derivative_export(function.getName()) == derivative;
+         function.getName().ends_with("_w" + std::to_string(width)) && export_order(function.getName()) == order;
 }
 
-bool needs_width(const llvm::Module& module, unsigned width, bool derivatives) {
+bool needs_width(const llvm::Module& module, unsigned width, unsigned order) {
   for (const llvm::Function& function : module)
-    if (is_export_of(function, width, derivatives)) return true;
+    if (is_export_of(function, width, order)) return true;
   return false;
 }
 
-void link_width(llvm::Module& module, Precision precision, unsigned width, bool derivatives, std::string& error) {
-  if (!error.empty() || !needs_width(module, width, derivatives)) return;
-  const std::span<const char> bitcode =
-      derivatives ? derivative_bitcode(precision, width) : library_bitcode(precision, width);
+void link_width(llvm::Module& module, Precision precision, unsigned width, unsigned order, std::string& error) {
+  if (!error.empty() || !needs_width(module, width, order)) return;
+  const std::span<const char> bitcode = order == 2   ? second_derivative_bitcode(precision)
+                                        : order == 1 ? derivative_bitcode(precision, width)
+                                                     : library_bitcode(precision, width);
   const llvm::MemoryBufferRef buffer(llvm::StringRef(bitcode.data(), bitcode.size()), "library");
   auto library = llvm::getLazyBitcodeModule(buffer, module.getContext());
   if (!library) {
@@ -48,9 +48,9 @@ void link_library(llvm::Module& module, const Domain& domain, const FunctionAttr
   std::vector<std::string> own;
   for (const llvm::Function& function : module)
     if (!function.isDeclaration()) own.push_back(function.getName().str());
-  for (const bool derivatives : {false, true}) {
-    link_width(module, domain.precision, domain.width, derivatives, error);
-    if (domain.width != 1) link_width(module, domain.precision, 1, derivatives, error);
+  for (const unsigned order : {0u, 1u, 2u}) {
+    link_width(module, domain.precision, domain.width, order, error);
+    if (domain.width != 1) link_width(module, domain.precision, 1, order, error);
   }
   if (!error.empty()) return;
   const std::set<std::string> known(own.begin(), own.end());

@@ -4,6 +4,7 @@
 
 #include "compiler/ir/build_function.h"
 #include "compiler/ir/derivative.h"
+#include "compiler/ir/expand_vectors.h"
 #include "compiler/ir/passes.h"
 #include "compiler/ir/walk.h"
 
@@ -91,13 +92,14 @@ void Derivatives::make(Module& module) {
   std::set<FunctionId> missing;
   for (const auto& [function, derivative] : by_function_)
     missing.insert(derivative);
+  VectorExpander vectors(module);
   // Innermost first: a derivative is made of what is there. There is no recursion, so each round makes some.
   while (!missing.empty()) {
     const size_t before = missing.size();
     for (const auto& [function, derivative] : by_function_) {
       if (!missing.contains(derivative) || calls_any(module, function, missing)) continue;
       constexpr uint32_t kFirst[] = {0};
-      const FunctionId made = add_gradient(module, function, kFirst);
+      const FunctionId made = add_gradient(module, vectors.expanded(function), kFirst);
       module.functions[derivative] = std::move(module.functions[made]);
       module.functions.erase(module.functions.begin() + made);
       missing.erase(derivative);

@@ -53,6 +53,7 @@ private:
   void library_call(ValueId id);
   void inverse(ValueId id);
   void library_call_by_component(ValueId id);
+  void derivative_call(ValueId id);
   ValueId differentiate_call(const LibraryFunction& row, unsigned parameters, const std::vector<ValueId>& operands,
                              const std::vector<Tangents>& tangents, std::vector<Tangents>& results);
   void call(ValueId id);
@@ -69,6 +70,11 @@ private:
     return b_->type_of(value) == ValueType::Number ? value : b_->component(value, c);
   }
   ValueId tangent(ValueId id, unsigned c, unsigned k) const { return at(tangents_[id], c, k); }
+  bool has_tangent(ValueId id, unsigned c) const {
+    for (unsigned k = 0; k < kMaxDirections; ++k)
+      if (tangent(id, c, k) != kNone) return true;
+    return false;
+  }
   static ValueId at(const Tangents& tangents, unsigned c, unsigned k) {
     return tangents.empty() ? kNone : tangents[c * kMaxDirections + k];
   }
@@ -121,6 +127,10 @@ public:
   }
   const FunctionActivity& activity(const ActivityKey& key) { return analysis_.of(key); }
   const Function& function(FunctionId id) const { return module_.functions[id]; }
+  void report_missing(const LibraryFunction& row) {
+    module_.problems.push_back("the library has no second derivative of '" + std::string(row.name) +
+                               "' by all that changes here");
+  }
 
 private:
   FunctionId make(const ActivityKey& key, std::span<const uint32_t> seeds) {
@@ -415,7 +425,6 @@ ValueId Writer::differentiate_call(const LibraryFunction& row, unsigned paramete
                                    const std::vector<ValueId>& operands, const std::vector<Tangents>& tangents,
                                    std::vector<Tangents>& results) {
   results.assign(row.result_count, {});
-  assert(!is_derivative_export(row.symbol)); // the library has no second derivatives
   const LibraryDerivative* derivative = library_derivative(row, parameters);
   if (derivative == nullptr) return b_->call_library(row, row.results[0], operands);
   const ValueId made = b_->call_library(derivative->function, row.results[0], operands);
@@ -468,6 +477,7 @@ void Writer::inverse(ValueId id) {
 
 void Writer::library_call(ValueId id) {
   const Instruction& instruction = source(id);
+  if (is_derivative_export(instruction.library->symbol)) return derivative_call(id);
   const bool one_result = instruction.library->result_count == 1;
   if (one_result && !activity_.values[id].any()) return copy(id);
   if (instruction.library->name == "inverse") return inverse(id);
@@ -480,6 +490,39 @@ void Writer::library_call(ValueId id) {
   values_[id] = differentiate_call(*instruction.library, parameters, operands, tangents, results);
   tangents_[id] = results[0];
   if (!one_result) call_tangents_[id] = std::move(results);
+}
+
+/// A call of a derivative stays, and beside it comes one of the second derivative.
+void Writer::derivative_call(ValueId id) {
+  copy(id);
+  const Instruction& instruction = source(id);
+  const SecondCall call(*instruction.library, ActivityAnalysis::active_parameters(instruction, activity_));
+  if (call.second == nullptr) {
+    if (call.is_missing) owner_.report_missing(*call.first->row);
+    return;
+  }
+  const LibraryFunction& function = call.second->function;
+  const unsigned count = call.first->row->result_count;
+  const ValueId made = b_->call_library(function, function.results[0], values_of(instruction.operands));
+  std::vector<Tangents> results(instruction.library->result_count);
+  unsigned column = 0;
+  for (size_t i = 0; i < instruction.operands.size(); ++i) {
+    if ((call.whole->parameters >> i & 1) == 0) continue;
+    const ValueId operand = instruction.operands[i];
+    for (unsigned c = 0; c < component_count(source(operand).type); ++c, ++column)
+      for (uint32_t index = 0; index < results.size() && has_tangent(operand, c); ++index) {
+        const unsigned list = index < count ? 1 + column : call.second->list(call.columns[index / count - 1], column);
+        const uint32_t slope_index = list * count + index % count;
+        for (unsigned r = 0; r < component_count(function.results[slope_index]); ++r) {
+          if ((call.used(index, column) >> r & 1) == 0) continue;
+          const ValueId slope = component(b_->result(made, slope_index, function.results[slope_index]), r);
+          for (unsigned k = 0; k < kMaxDirections; ++k)
+            set(results[index], r, k, sum(at(results[index], r, k), product(slope, tangent(operand, c, k))));
+        }
+      }
+  }
+  tangents_[id] = results[0];
+  call_tangents_[id] = std::move(results);
 }
 
 void Writer::library_call_by_component(ValueId id) {
@@ -546,7 +589,7 @@ unsigned derivative_order(const Module& module, FunctionId function) {
     pending.pop_back();
     for_each_instruction(current, [&](ValueId id) {
       const Instruction& instruction = current.instructions[id];
-      if (instruction.op == Op::CallLibrary && is_derivative_export(instruction.library->symbol)) order = 1;
+      if (instruction.op == Op::CallLibrary) order = std::max(order, export_order(instruction.library->symbol));
       if (instruction.op == Op::Call && seen.insert(instruction.index).second) pending.push_back(instruction.index);
     });
   }

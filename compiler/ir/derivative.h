@@ -34,12 +34,13 @@ inline constexpr unsigned kMaxDirections = 16;
 /// Adds a function with the parameters and captures of `function` and its results, followed, for each number and each
 /// component of a vector among them, by the gradient by each of `parameters` (indices; numbers or vectors, at most
 /// kMaxDirections components together), which has the parameter's type. Captures count as constants; it stores in them
-/// what `function` does. No function that is made here may be differentiated again: the library has first derivatives.
+/// what `function` does. What is made here may be differentiated once more, if rows of vectors were expanded before
+/// (expand_vectors.h): of those the library has no second derivatives.
 FunctionId add_gradient(Module& module, FunctionId function, std::span<const uint32_t> parameters);
 
 /// How often the library's functions that `function` uses are differentiated already. Beyond kMaxOrder the library has
 /// no derivatives: what has this order must not be differentiated again.
 unsigned derivative_order(const Module& module, FunctionId function);
-inline constexpr unsigned kMaxOrder = 1;
+inline constexpr unsigned kMaxOrder = 2;
 
 } // namespace moonshade::ir

@@ -32,6 +32,27 @@ unsigned ActivityAnalysis::active_parameters(const Instruction& call, const Func
   return parameters;
 }
 
+SecondCall::SecondCall(const LibraryFunction& derivative, unsigned parameters) {
+  if (export_order(derivative.symbol) != 1) return;
+  first = &derivative_of(derivative);
+  whole = library_derivative(*first->row, first->parameters | parameters);
+  if (whole == nullptr || (whole->parameters & parameters) == 0) return;
+  second = library_second_derivative(*whole);
+  is_missing = second == nullptr;
+  unsigned column = 0;
+  for (unsigned i = 0; i < first->row->parameter_count; ++i) {
+    if ((whole->parameters >> i & 1) == 0) continue;
+    for (unsigned c = 0; c < component_count(first->row->parameters[i]); ++c, ++column)
+      if ((first->parameters >> i & 1) != 0) columns.push_back(column);
+  }
+}
+
+unsigned SecondCall::used(uint32_t index, unsigned k) const {
+  const unsigned results = first->row->result_count, result = index % results, list = index / results;
+  const unsigned by_k = whole->used[whole->index(k, result)];
+  return list == 0 ? by_k : by_k & whole->used[whole->index(columns[list - 1], result)];
+}
+
 FunctionActivity ActivityAnalysis::analyse(const ActivityKey& key) {
   const Function& function = module_.functions[key.function];
   FunctionActivity activity;
@@ -63,9 +84,27 @@ FunctionActivity ActivityAnalysis::analyse(const ActivityKey& key) {
 
 namespace {
 
+/// Of one of the results of a call of a derivative.
+Activity derivative_call(const Function& function, const Instruction& call, const FunctionActivity& activity,
+                         uint32_t index) {
+  Activity result;
+  const SecondCall second(*call.library, ActivityAnalysis::active_parameters(call, activity));
+  if (second.second == nullptr) return result;
+  unsigned column = 0;
+  for (size_t i = 0; i < call.operands.size(); ++i) {
+    if ((second.whole->parameters >> i & 1) == 0) continue;
+    const ValueId operand = call.operands[i];
+    for (unsigned c = 0; c < component_count(function.instructions[operand].type); ++c, ++column)
+      for (unsigned r = 0; r < component_count(second.first->function.results[index]); ++r)
+        if ((second.used(index, column) >> r & 1) != 0) result.add_component(r, activity.values[operand], c);
+  }
+  return result;
+}
+
 /// Of one of the call's results, by the library's derivative.
 Activity library_call(const Function& function, const Instruction& call, const FunctionActivity& activity,
                       uint32_t index) {
+  if (is_derivative_export(call.library->symbol)) return derivative_call(function, call, activity, index);
   Activity result;
   if (call.library->name == "inverse") { // by the product rule (derivative.cpp)
     const unsigned count = component_count(call.type);

@@ -83,6 +83,20 @@ private:
   std::map<ActivityKey, FunctionActivity> known_;
 };
 
+/// What the derivative of a call of a derivative of the library takes, by `parameters` (a bit each): the second
+/// derivative of the same row by all parameters that either has, and which of its columns are those of the first.
+struct SecondCall {
+  const LibraryDerivative* first = nullptr;
+  const LibraryDerivative* whole = nullptr;
+  const LibrarySecondDerivative* second = nullptr; ///< null where there is none
+  bool is_missing = false;                         ///< there should be one
+  std::vector<unsigned> columns;
+
+  SecondCall(const LibraryFunction& derivative, unsigned parameters);
+  /// A bit for each component of result `index` of the first that can depend on column k of the whole.
+  unsigned used(uint32_t index, unsigned k) const;
+};
+
 /// Components of the operand of a call of the library by component, where the call's component is `component`.
 inline unsigned operand_component(const Function& function, ValueId operand, unsigned component) {
   return component_count(function.instructions[operand].type) == 1 ? 0 : component;

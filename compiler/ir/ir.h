@@ -150,6 +150,8 @@ struct Module {
   /// Runs once for each instance, after the parameters have been stored into their globals: fills the other globals.
   FunctionId init = kNone;
   uint64_t step_limit = 1'000'000;
+  /// What could not be translated, for the user; such a module must not be executed.
+  std::vector<std::string> problems;
 };
 
 } // namespace moonshade::ir

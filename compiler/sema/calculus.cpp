@@ -6,6 +6,7 @@
 #include "compiler/sema/walker.h"
 
 #include <algorithm>
+#include <set>
 
 namespace moonshade::sema {
 
@@ -21,6 +22,18 @@ std::string describe_results(const TypeList& results) {
   if (results.types.empty()) return "no value";
   if (results.types.size() > 1) return std::to_string(results.types.size()) + " values";
   return describe(results.types[0]);
+}
+
+/// The rows of the library that a specialisation and what it calls use; with `differentiated`, inside gradients alone.
+void collect_rows(const Specialisation& specialisation, bool differentiated, std::set<const LibraryFunction*>& rows,
+                  std::set<std::pair<const Specialisation*, bool>>& seen) {
+  if (!seen.insert({&specialisation, differentiated}).second) return;
+  for (const auto& [id, fact] : specialisation.expressions) {
+    const bool is_gradient = fact.call == CallKind::Gradient || fact.call == CallKind::Fwidth;
+    const bool counts = !differentiated || is_gradient;
+    if (fact.library != nullptr && counts) rows.insert(fact.library);
+    if (fact.callee != nullptr) collect_rows(*fact.callee, !counts, rows, seen);
+  }
 }
 
 } // namespace
@@ -69,6 +82,18 @@ bool Walker::is_free_of_effects(const Expr& function, const Work& callee, std::s
   return false;
 }
 
+/// Rows inside gradients inside the function are differentiated twice.
+void Walker::refuse_rows(const CallExpr& expr, const Specialisation& function, std::string_view name) {
+  std::set<const LibraryFunction*> rows;
+  std::set<std::pair<const Specialisation*, bool>> seen;
+  collect_rows(function, true, rows, seen);
+  for (const LibraryFunction& row : library()) // in the library's order
+    if (rows.contains(&row) && !has_second_derivatives(row)) {
+      type_error(Code::NoSecondDerivative, expr.span, {std::string(name), std::string(row.name)});
+      return;
+    }
+}
+
 TypeList Walker::derivative_call(const CallExpr& expr, std::string_view name) {
   const TypeList args = expression_list(expr.args);
   if (!takes_derivative_arguments(expr, name, args)) return unknown_values();
@@ -93,6 +118,7 @@ TypeList Walker::derivative_call(const CallExpr& expr, std::string_view name) {
     const unsigned order = callee->second.work->derivative_order + 1;
     if (order > kMaxDerivativeOrder)
       type_error(Code::GradientOrder, expr.span, {std::string(name), std::to_string(kMaxDerivativeOrder)});
+    if (order == 2) refuse_rows(expr, *fact.callee, name);
     work_.derivative_order = std::max(work_.derivative_order, order);
   }
   if (results.types.size() != 1 || (!is_unknown(results.types[0]) && !is_scalar(results.types[0]))) {

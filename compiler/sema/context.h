@@ -32,7 +32,7 @@ inline constexpr size_t kMaxRecordFields = 4096;
 inline constexpr uint64_t kMaxConstructedElements = 2048;
 inline constexpr uint64_t kMaxVisits = 100'000'000;
 /// How often what stands inside each other may be differentiated.
-inline constexpr unsigned kMaxDerivativeOrder = 1;
+inline constexpr unsigned kMaxDerivativeOrder = 2;
 
 /// A variable that a specialisation may read before it assigns it: a local of an enclosing function, or a global.
 struct Requirement {

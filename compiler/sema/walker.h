@@ -120,6 +120,7 @@ private:
   // ---- calculus.cpp
   TypeList derivative_call(const syntax::CallExpr& expr, std::string_view name);
   bool takes_derivative_arguments(const syntax::CallExpr& expr, std::string_view name, const TypeList& args);
+  void refuse_rows(const syntax::CallExpr& expr, const Specialisation& function, std::string_view name);
   bool is_free_of_effects(const syntax::Expr& function, const Work& callee, std::string_view name);
 
   // ---- modules.cpp
