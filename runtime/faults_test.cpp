@@ -1,4 +1,5 @@
 // Faults, steps, calls and captures in compiled code, from modules built by hand: the same points fault at every width.
+#include "runtime/frontend.h"
 #include "runtime/module_fixture.h"
 
 namespace moonshade {
@@ -202,6 +203,32 @@ TEST_P(Faults, LeaveProgramsAloneThatCannotFault) {
   codegen::Options options;
   options.precision = precision();
   EXPECT_EQ(codegen::generate(module, options).llvm_text().find("moonshade_block_faulted"), std::string::npos);
+}
+
+/// Nothing is kept for a shader that cannot fault, at any width.
+TEST(FaultBookkeeping, IsNotThereWhereNoFaultIsPossible) {
+  const auto reports_faults = [](const std::string& text, unsigned width) {
+    const CheckedShader checked("test.lua", text);
+    EXPECT_TRUE(checked.ok());
+    CompileOptions options;
+    options.width = width;
+    const Emission emission = emit(checked, Stage::Llvm, options);
+    EXPECT_NE(emission.bytes.find("moonshade_entry_height"), std::string::npos) << emission.error;
+    return emission.bytes.find("moonshade_block_faulted") != std::string::npos;
+  };
+  for (const unsigned width : {1u, 8u}) {
+    EXPECT_FALSE(reports_faults("local function f(x) return x * 2 end\n"
+                                "function height(p, id)\n"
+                                "  local s = 0.0\n"
+                                "  for i = 1, 20 do s = s + f(noise(p * i)) + (id // 3) % 5 end\n"
+                                "  return s\n"
+                                "end",
+                                width));
+    EXPECT_TRUE(reports_faults("function height(p, id) return p.x // 1 + 7 // id end", width));
+    EXPECT_TRUE(
+        reports_faults("function height(p, id) local s = 0.0 for i = 1, id do s = s + i end return s end", width));
+    EXPECT_TRUE(reports_faults("function height(p, id) return p[id] end", width));
+  }
 }
 
 } // namespace
