@@ -68,6 +68,14 @@ CompileTimes CheckedShader::times() const {
 }
 
 ir::Module build_module(const CheckedShader& shader, const CompileOptions& options) {
+  ir::Module module = build_printing_module(shader, options);
+  ir::remove_prints(module);
+  // At every level: which products and sums become one operation is part of what f32 means.
+  ir::optimize(module, options.precision);
+  return module;
+}
+
+ir::Module build_printing_module(const CheckedShader& shader, const CompileOptions& options) {
   ir::Module module = ir::build(shader.parts().program, {options.step_limit});
   add_gradients(module, shader.info(), options);
   if (!options.entries.empty())
@@ -75,8 +83,6 @@ ir::Module build_module(const CheckedShader& shader, const CompileOptions& optio
       return shader.info().find_entry(entry.name) != nullptr &&
              std::ranges::find(options.entries, entry.name) == options.entries.end();
     });
-  // At every level: which products and sums become one operation is part of what f32 means.
-  ir::optimize(module, options.precision);
   return module;
 }
 

@@ -27,6 +27,8 @@ struct CheckedShader::Parts {
 
 /// The optimised IR of the entries that the options ask for.
 ir::Module build_module(const CheckedShader& shader, const CompileOptions& options);
+/// The same before it is optimised, with its prints.
+ir::Module build_printing_module(const CheckedShader& shader, const CompileOptions& options);
 /// The shader's facts, with the entries of the module, in its order.
 ShaderInfo compiled_info(const ShaderInfo& info, const ir::Module& module, const CompileOptions& options);
 /// A fault site's place in the source.

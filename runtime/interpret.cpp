@@ -8,6 +8,9 @@
 #include "runtime/interpret_state.h"
 #include "runtime/interpret_steps.h"
 
+#include <algorithm>
+#include <array>
+#include <atomic>
 #include <cfenv>
 #include <mutex>
 
@@ -66,11 +69,40 @@ public:
     std::unique_ptr<InterpretState> state = borrow();
     if (!state) return fail(entry, batch);
     for (uint64_t row = 0; row < batch.count; ++row) {
-      const FaultCode code = state->call(entry, batch, row);
+      const uint64_t limit = step_limit();
+      const FaultCode code = state->call(entry, batch, row, limit);
+      note_steps(code, limit, state->steps_left());
       if (batch.fault_codes) batch.fault_codes[row] = uint8_t(code);
       if (code != FaultCode::None && batch.faults)
         report(*batch.faults, code, row, [&] { return state->last_fault(); });
     }
+    std::lock_guard lock(mutex_);
+    idle_.push_back(std::move(state));
+  }
+
+  bool has_prints() const override {
+    const auto prints = [](const InterpretSource::File& file) { return file.text.find("print") != std::string::npos; };
+    return std::ranges::any_of(source_.files, prints);
+  }
+
+  void print(size_t entry, const Batch& batch, uint64_t point, const PrintSink& sink) const override {
+    DefaultFloatingPoint environment;
+    std::unique_ptr<InterpretState> state = borrow();
+    if (!state) return;
+    std::vector<const void*> inputs;
+    size_t column = 0;
+    for (const InputInfo& input : source_.info.entries[entry].inputs)
+      for (unsigned i = 0; i < component_count(input.type); ++i, ++column)
+        inputs.push_back(static_cast<const std::byte*>(batch.inputs[column]) +
+                         point * (input.type == ValueType::Boolean ? 1 : sizeof(uint64_t)));
+    // The results were stored by run(); these go nowhere.
+    std::vector<std::array<std::byte, sizeof(uint64_t)>> results;
+    for (const ValueType type : source_.info.entries[entry].results)
+      results.resize(results.size() + component_count(type));
+    std::vector<void*> outputs;
+    for (auto& result : results)
+      outputs.push_back(result.data());
+    state->call(entry, {1, inputs.data(), outputs.data(), nullptr, nullptr}, 0, source_.step_limit, &sink);
     std::lock_guard lock(mutex_);
     idle_.push_back(std::move(state));
   }
@@ -83,6 +115,24 @@ public:
   }
 
 private:
+  static constexpr uint64_t kPatience = 64, kAllowance = 20, kLeast = 1000;
+
+  uint64_t step_limit() const {
+    if (!source_.impatient || overruns_.load(std::memory_order_relaxed) < kPatience) return source_.step_limit;
+    return std::min(source_.step_limit, kLeast + kAllowance * longest_.load(std::memory_order_relaxed));
+  }
+  void note_steps(FaultCode code, uint64_t limit, uint64_t left) const {
+    if (!source_.impatient) return;
+    if (code == FaultCode::StepLimit) {
+      overruns_.fetch_add(1, std::memory_order_relaxed);
+      return;
+    }
+    uint64_t longest = longest_.load(std::memory_order_relaxed);
+    while (limit - left > longest &&
+           !longest_.compare_exchange_weak(longest, limit - left, std::memory_order_relaxed)) {
+    }
+  }
+
   std::unique_ptr<InterpretState> borrow() const {
     {
       std::lock_guard lock(mutex_);
@@ -134,6 +184,7 @@ private:
   mutable std::mutex mutex_; // guards the two below
   mutable std::vector<std::unique_ptr<InterpretState>> idle_;
   mutable std::vector<InterpretFault> sites_;
+  mutable std::atomic<uint64_t> overruns_ = 0, longest_ = 0;
 };
 
 } // namespace
@@ -154,6 +205,7 @@ Instantiation interpret(const CheckedShader& shader, const std::map<std::string,
     add(module.name, module.chunk->file);
   source.info = shader.info();
   source.step_limit = options.step_limit;
+  source.impatient = options.impatient;
   for (const auto& [name, value] : parameters) {
     const ParameterInfo* parameter = nullptr;
     for (const ParameterInfo& candidate : source.info.parameters)

@@ -17,6 +17,9 @@ struct InterpretOptions {
   bool count_steps = true;
   /// 0, and count_steps off: no guard at all, for measurements of shaders that are known to end.
   uint64_t step_limit = 1'000'000;
+  /// Once many points have met the limit, what a point may take falls to some times what points took that ended: an
+  /// endless shader then faults at every point, but soon.
+  bool impatient = false;
 };
 
 /// Loads a checked shader into stock Lua. run() serves any number of threads: each call borrows a Lua state of its own.

@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <lua.hpp>
+#include <utility>
 
 namespace moonshade {
 
@@ -23,6 +24,7 @@ struct InterpretState::Record {
   uint64_t steps_left = 0;
   bool loads = true; ///< Lua's own compiler takes the files
   const InterpretSource* source = nullptr;
+  const PrintSink* prints = nullptr; ///< where the lines of a call go, if anywhere
 
   void clear() {
     code = FaultCode::None;
@@ -99,6 +101,47 @@ int exact_integer(lua_State* lua) {
   return 1;
 }
 
+/// Pushes the text of a value as Lua's tostring has it, but every NaN as `nan`.
+void push_text(lua_State* lua, int index) {
+  luaL_tolstring(lua, index, nullptr);
+  const int type = lua_type(lua, index);
+  if (type == LUA_TSTRING || (type == LUA_TNUMBER && lua_isinteger(lua, index))) return;
+  luaL_gsub(lua, lua_tostring(lua, -1), "-nan", "nan");
+  lua_remove(lua, -2);
+}
+
+/// Lua's print, to the sink of the call.
+int print_line(lua_State* lua) {
+  const PrintSink* sink = record_of(lua).prints;
+  if (sink == nullptr) return 0;
+  const int count = lua_gettop(lua);
+  luaL_checkstack(lua, 2 * count + 1, "too many arguments to 'print'");
+  for (int i = 1; i <= count; ++i) {
+    if (i > 1) lua_pushliteral(lua, "\t");
+    push_text(lua, i);
+  }
+  lua_concat(lua, lua_gettop(lua) - count);
+  size_t size = 0;
+  const char* text = lua_tolstring(lua, -1, &size);
+  (*sink)({text, size});
+  return 0;
+}
+
+/// math.modf, but a fault where the first result would be a float.
+int split_number(lua_State* lua) {
+  lua_Integer whole;
+  if (lua_isinteger(lua, 1)) {
+    lua_settop(lua, 1);
+    lua_pushnumber(lua, 0);
+    return 2;
+  }
+  const lua_Number number = luaL_checknumber(lua, 1), truncated = std::trunc(number);
+  if (!lua_numbertointeger(truncated, &whole)) return raise_fault(lua, FaultCode::IntegerRange, "");
+  lua_pushinteger(lua, whole);
+  lua_pushnumber(lua, number == truncated ? 0 : number - truncated);
+  return 2;
+}
+
 int count_step(lua_State* lua) {
   Record& record = record_of(lua);
   if (record.steps_left == 0) return raise_fault(lua, FaultCode::StepLimit, "");
@@ -122,14 +165,27 @@ int counted_derivative(lua_State* lua) {
   }
   const uint64_t left = record.steps_left;
   record.steps_left = before <= UINT64_MAX / kEvaluations ? before * kEvaluations : before;
+  const PrintSink* prints = std::exchange(record.prints, nullptr);
   lua_pushvalue(lua, lua_upvalueindex(1));
   lua_insert(lua, 1);
   lua_call(lua, lua_gettop(lua) - 1, 1);
   record.steps_left = left;
+  record.prints = prints;
   return 1;
 }
 
 // ---- errors of Lua's own -------------------------------------------------------------------------------------------
+
+/// Of a vector's component that there is not: the index may be no integer at all.
+FaultCode classify_component(const char* index) {
+  const size_t size = std::strcspn(index, "]");
+  if (std::strcspn(index, ".ein") >= size) return FaultCode::Index; // an integer
+  const double number = std::strtod(index, nullptr);
+  // The text has 14 digits: of -2^63 it is this number, and of 2^63 its negative.
+  constexpr double kEdge = 9.2233720368548e+18;
+  const bool is_integer = number == std::floor(number) && number >= -kEdge && number < kEdge;
+  return is_integer ? FaultCode::Index : FaultCode::IntegerRange;
+}
 
 FaultCode classify(const char* message) {
   const auto says = [&](const char* part) { return std::strstr(message, part) != nullptr; };
@@ -138,6 +194,9 @@ FaultCode classify(const char* message) {
   if (says("bad argument #2 to 'fmod' (zero)")) return FaultCode::DivideByZero;
   if (says("'for' step is zero")) return FaultCode::ForStepZero;
   if (says("number has no integer representation")) return FaultCode::IntegerRange;
+  constexpr const char* kNoComponent = "has no component [";
+  if (const char* found = std::strstr(message, kNoComponent))
+    return classify_component(found + std::strlen(kNoComponent));
   if (says("attempt to index") || says("out of range")) return FaultCode::Index;
   return FaultCode::Error;
 }
@@ -235,7 +294,7 @@ void open_basics(lua_State* lua) {
   set_field(lua, lua_absindex(lua, -1), "assert", checked_assert);
   set_field(lua, lua_absindex(lua, -1), "error", raise_error);
   set_field(lua, lua_absindex(lua, -1), "require", require_module);
-  set_field(lua, lua_absindex(lua, -1), "print", [](lua_State*) { return 0; });
+  set_field(lua, lua_absindex(lua, -1), "print", print_line);
   lua_rawseti(lua, LUA_REGISTRYINDEX, LUA_RIDX_GLOBALS);
   lua_pop(lua, 1);
 }
@@ -245,6 +304,7 @@ void open_math(lua_State* lua) {
   set_field(lua, -2, "floor", to_integer<std::floor>);
   set_field(lua, -2, "ceil", to_integer<std::ceil>);
   set_field(lua, -2, "tointeger", exact_integer);
+  set_field(lua, -2, "modf", split_number);
   for (const char* name : {"random", "randomseed"}) {
     lua_pushnil(lua);
     lua_setfield(lua, -2, name);
@@ -305,7 +365,9 @@ std::unique_ptr<InterpretState> InterpretState::open(const InterpretSource& sour
   return state->load(error) ? std::move(state) : nullptr;
 }
 
-void InterpretState::start_counting() { record_->steps_left = source_.step_limit; }
+void InterpretState::start_counting(uint64_t limit) { record_->steps_left = limit; }
+
+uint64_t InterpretState::steps_left() const { return record_->steps_left; }
 
 bool InterpretState::load(std::string& error) {
   lua_ = luaL_newstate();
@@ -338,7 +400,7 @@ bool InterpretState::load(std::string& error) {
     return int(source.info.entries.size());
   });
   lua_pushlightuserdata(lua_, const_cast<InterpretSource*>(&source_));
-  start_counting();
+  start_counting(source_.step_limit);
   if (protected_call(lua_, 1, LUA_MULTRET) == LUA_OK) return lua_checkstack(lua_, 200);
   // What the parser takes and Lua does not exceeds one of Lua's capacities (locals, upvalues, nesting).
   if (!record_->loads)
@@ -353,10 +415,12 @@ InterpretFault InterpretState::last_fault() const {
   return {record_->code, file.name, place_of_fault(file.text, record_->code, record_->line), record_->message};
 }
 
-FaultCode InterpretState::call(size_t index, const Batch& batch, uint64_t row) {
+FaultCode InterpretState::call(size_t index, const Batch& batch, uint64_t row, uint64_t step_limit,
+                               const PrintSink* prints) {
   const EntryInfo& entry = source_.info.entries[index];
   record_->clear();
-  start_counting();
+  record_->prints = prints;
+  start_counting(step_limit);
   lua_pushvalue(lua_, kHandler + 1 + int(index));
   push_inputs(entry, batch, row);
   const int base = lua_gettop(lua_) - int(entry.inputs.size());
@@ -367,6 +431,7 @@ FaultCode InterpretState::call(size_t index, const Batch& batch, uint64_t row) {
     code = store_results(entry, batch, row);
   if (code != FaultCode::None) store_zeros(entry, batch, row);
   lua_settop(lua_, base - 1);
+  record_->prints = nullptr;
   return code;
 }
 

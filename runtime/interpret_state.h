@@ -26,6 +26,7 @@ struct InterpretSource {
   ShaderInfo info;
   std::map<std::string, Constant> parameters; ///< overrides, checked
   uint64_t step_limit = 0;
+  bool impatient = false;
 };
 
 class InterpretState {
@@ -37,8 +38,11 @@ public:
   /// A state in which the top level has run; null with the reason in `error` where that failed.
   static std::unique_ptr<InterpretState> open(const InterpretSource& source, std::string& error);
 
-  /// Calls an entry for point `row` of the batch and stores its results.
-  FaultCode call(size_t entry, const Batch& batch, uint64_t row);
+  /// Calls an entry for point `row` of the batch and stores its results; what it prints goes to `prints`.
+  FaultCode call(size_t entry, const Batch& batch, uint64_t row, uint64_t step_limit,
+                 const PrintSink* prints = nullptr);
+  /// Of the last call.
+  uint64_t steps_left() const;
   /// Of the last call that faulted.
   InterpretFault last_fault() const;
 
@@ -51,7 +55,7 @@ private:
   FaultCode store_results(const EntryInfo& entry, const Batch& batch, uint64_t row);
   FaultCode wrong_result(int at);
   void store_zeros(const EntryInfo& entry, const Batch& batch, uint64_t row);
-  void start_counting();
+  void start_counting(uint64_t limit);
 
   const InterpretSource& source_;
   std::unique_ptr<Record> record_; // at a fixed address: the Lua state points to it

@@ -2,6 +2,7 @@
 #include "runtime/jit.h"
 
 #include "compiler/codegen/batch.h"
+#include "compiler/codegen/print.h"
 #include "stdlib/library.h"
 
 #include <llvm/ExecutionEngine/Orc/LLJIT.h>
@@ -45,6 +46,7 @@ llvm::Error define_externals(orc::LLJIT& jit) {
   for (const LibraryExternal& external : library_externals())
     define(external.name, static_cast<char*>(external.address));
   define("moonshade_block_faulted", &codegen::moonshade_block_faulted);
+  define("moonshade_print", &codegen::moonshade_print);
   define("memcpy", &std::memcpy);
   define("memset", &std::memset);
   define("memmove", &std::memmove);

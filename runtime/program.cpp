@@ -1,10 +1,12 @@
 // Compiled programs and their instances (shader.h): the JIT's code, blocks of constants, batch calls.
 #include "compiler/codegen/batch.h"
 #include "compiler/codegen/codegen.h"
+#include "compiler/codegen/print.h"
 #include "runtime/floating_point.h"
 #include "runtime/frontend_parts.h"
 #include "runtime/gradients.h"
 #include "runtime/jit.h"
+#include "runtime/print_text.h"
 #include "runtime/shader.h"
 #include "runtime/stopwatch.h"
 
@@ -12,6 +14,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <mutex>
 #include <optional>
 #include <sstream>
 
@@ -36,6 +39,18 @@ struct Compiled {
   std::vector<ParameterSlot> slots;
   std::vector<FaultSite> sites;
   CompileTimes times;
+
+  // Where the shader prints: what the code that prints is made of, once somebody asks for it.
+  std::shared_ptr<const ir::Module> with_prints; ///< null: it does not print
+  CompileOptions options;
+  mutable std::once_flag printing_made;
+  mutable std::shared_ptr<const Compiled> printing; ///< null then: it could not be made
+};
+
+/// Where the lines of one call go; its address stands behind the constants.
+struct PrintContext {
+  const Compiled* compiled;
+  const PrintSink* sink;
 };
 
 /// One instance's constants; aligned for any element.
@@ -44,10 +59,14 @@ struct Constants {
   std::unique_ptr<std::byte[]> bytes;
 };
 
+std::shared_ptr<const Compiled> printing_code(const Compiled& compiled);
+/// The constants of an instance, with the parameters' values and what the top level gives; or its fault.
+Constants make_constants(const Compiled& compiled, const std::vector<Constant>& values, uint32_t& fault);
+
 class CompiledShader final : public Shader {
 public:
-  CompiledShader(std::shared_ptr<const Compiled> compiled, Constants constants)
-      : compiled_(std::move(compiled)), constants_(std::move(constants)) {}
+  CompiledShader(std::shared_ptr<const Compiled> compiled, Constants constants, std::vector<Constant> parameters)
+      : compiled_(std::move(compiled)), constants_(std::move(constants)), parameters_(std::move(parameters)) {}
 
   const ShaderInfo& info() const override { return compiled_->info; }
   Precision precision() const override { return compiled_->generated.precision; }
@@ -68,9 +87,36 @@ public:
     return site < compiled_->sites.size() ? compiled_->sites[site] : FaultSite{};
   }
 
+  bool has_prints() const override { return compiled_->with_prints != nullptr; }
+
+  void print(size_t entry, const Batch& batch, uint64_t point, const PrintSink& sink) const override {
+    const std::shared_ptr<const Compiled> code = has_prints() ? printing_code(*compiled_) : nullptr;
+    if (code == nullptr) return;
+    const codegen::KernelInfo& info = code->generated.entries[entry].info;
+    std::vector<const void*> inputs;
+    for (size_t i = 0; i < info.inputs.size(); ++i) {
+      const size_t offset = info.inputs[i].uniform ? 0 : info.inputs[i].size * point;
+      inputs.push_back(static_cast<const std::byte*>(batch.inputs[i]) + offset);
+    }
+    std::vector<uint64_t> results(info.outputs.size());
+    std::vector<void*> outputs;
+    for (uint64_t& result : results)
+      outputs.push_back(&result);
+    uint32_t fault = 0;
+    const Constants constants = make_constants(*code, parameters_, fault);
+    const PrintContext context{code.get(), &sink};
+    const PrintContext* address = &context;
+    std::memcpy(constants.bytes.get() + code->generated.print_slot, static_cast<void*>(&address), sizeof address);
+    const DefaultFloatingPoint environment;
+    codegen::BatchFaults faults;
+    codegen::run_batch(code->kernels[entry], info, {1, inputs.data(), outputs.data(), constants.bytes.get(), nullptr},
+                       faults, nullptr);
+  }
+
 private:
   std::shared_ptr<const Compiled> compiled_;
   Constants constants_;
+  std::vector<Constant> parameters_; ///< their values
 };
 
 void store_number(std::byte* target, Precision precision, double value) {
@@ -105,6 +151,16 @@ void store_constant(std::byte* target, ValueType type, Precision precision, cons
   }
 }
 
+Constants make_constants(const Compiled& compiled, const std::vector<Constant>& values, uint32_t& fault) {
+  Constants constants(compiled.generated.constants_size + sizeof(PrintContext*));
+  for (const ParameterSlot& slot : compiled.slots)
+    store_constant(constants.bytes.get() + slot.offset, slot.type, compiled.generated.precision,
+                   stored_value(compiled.info.parameters[slot.parameter], values[slot.parameter]));
+  const DefaultFloatingPoint environment;
+  if (compiled.init != nullptr) codegen::call_init(compiled.init, constants.bytes.get(), fault);
+  return constants;
+}
+
 std::string describe(const FaultSite& site, FaultCode code) {
   std::ostringstream text;
   text << site.file << ':' << site.line << ':' << site.column << ": the top level faults: " << fault_name(code);
@@ -123,18 +179,11 @@ public:
   Instantiation instantiate(const std::map<std::string, Constant>& parameters) const override {
     std::vector<Constant> values;
     if (std::string error = parameter_values(parameters, values); !error.empty()) return {nullptr, error};
-    Constants constants(compiled_->generated.constants_size);
-    for (const ParameterSlot& slot : compiled_->slots)
-      store_constant(constants.bytes.get() + slot.offset, slot.type, compiled_->generated.precision,
-                     stored_value(compiled_->info.parameters[slot.parameter], values[slot.parameter]));
-    if (compiled_->init != nullptr) {
-      const DefaultFloatingPoint environment;
-      uint32_t fault = 0;
-      codegen::call_init(compiled_->init, constants.bytes.get(), fault);
-      if (fault != 0)
-        return {nullptr, describe(compiled_->sites[fault - 1], compiled_->generated.places[fault - 1].code)};
-    }
-    return {std::make_shared<CompiledShader>(compiled_, std::move(constants)), ""};
+    uint32_t fault = 0;
+    Constants constants = make_constants(*compiled_, values, fault);
+    if (fault != 0)
+      return {nullptr, describe(compiled_->sites[fault - 1], compiled_->generated.places[fault - 1].code)};
+    return {std::make_shared<CompiledShader>(compiled_, std::move(constants), std::move(values)), ""};
   }
 
 private:
@@ -192,7 +241,42 @@ std::string load(Compiled& compiled, std::string object) {
   return compiled.init == nullptr ? "the code of the top level cannot be linked" : "";
 }
 
+void find_slots(Compiled& compiled, const ir::Module& module) {
+  for (size_t i = 0; i < module.globals.size(); ++i)
+    if (const ir::Global& global = module.globals[i]; global.parameter != ir::kNone)
+      compiled.slots.push_back({global.parameter, global.type, compiled.generated.global_offsets[i]});
+}
+
+std::shared_ptr<const Compiled> make_printing_code(const Compiled& compiled) {
+  ir::Module module = *compiled.with_prints;
+  ir::optimize(module, compiled.options.precision);
+  codegen::Options options = codegen_options(compiled.options);
+  options.width = 1;
+  options.prints = true;
+  codegen::Generated generated = codegen::generate(module, options);
+  std::string object;
+  if (generated.error.empty()) object = generated.object();
+  if (!generated.error.empty()) return nullptr;
+  auto printing = std::make_shared<Compiled>();
+  printing->generated = std::move(generated.info);
+  printing->info = compiled.info;
+  find_slots(*printing, module);
+  return load(*printing, std::move(object)).empty() ? printing : nullptr;
+}
+
+std::shared_ptr<const Compiled> printing_code(const Compiled& compiled) {
+  std::call_once(compiled.printing_made, [&] { compiled.printing = make_printing_code(compiled); });
+  return compiled.printing;
+}
+
 } // namespace
+
+extern "C" void codegen::moonshade_print(void* sink, uint32_t place, const uint64_t* components) {
+  if (sink == nullptr) return;
+  const auto& context = *static_cast<const PrintContext*>(sink);
+  const codegen::PrintPlaceInfo& print = context.compiled->generated.prints[place];
+  (*context.sink)(print_line(print.text, print.types, components));
+}
 
 Compilation compile(const CheckedShader& shader, const CompileOptions& options) {
   Stopwatch watch;
@@ -203,7 +287,13 @@ Compilation compile(const CheckedShader& shader, const CompileOptions& options) 
   times.parse = shader.parts().parse_milliseconds;
   times.sema = shader.parts().sema_milliseconds;
   watch.lap();
-  const ir::Module module = build_module(shader, options);
+  ir::Module module = build_printing_module(shader, options);
+  if (ir::has_prints(module)) {
+    compiled->with_prints = std::make_shared<const ir::Module>(module);
+    compiled->options = options;
+    ir::remove_prints(module);
+  }
+  ir::optimize(module, options.precision);
   times.ir = watch.lap();
   codegen::Generated generated = codegen::generate(module, codegen_options(options));
   times.emit = generated.times.emit;
@@ -214,9 +304,7 @@ Compilation compile(const CheckedShader& shader, const CompileOptions& options) 
   if (!generated.error.empty()) return {nullptr, diagnostics + refusal(shader, generated, options.color_diagnostics)};
   compiled->generated = std::move(generated.info);
   compiled->info = compiled_info(shader.info(), module, options);
-  for (size_t i = 0; i < module.globals.size(); ++i)
-    if (const ir::Global& global = module.globals[i]; global.parameter != ir::kNone)
-      compiled->slots.push_back({global.parameter, global.type, compiled->generated.global_offsets[i]});
+  find_slots(*compiled, module);
   for (const codegen::FaultPlaceInfo& place : compiled->generated.places)
     compiled->sites.push_back(resolve(shader.sources(), place));
   if (std::string error = load(*compiled, std::move(object)); !error.empty())

@@ -103,6 +103,9 @@ struct FaultSite {
   std::string message; ///< of assert and error
 };
 
+/// Takes a line that a shader prints, without its end.
+using PrintSink = std::function<void(std::string_view line)>;
+
 /// A shader with its parameters set, ready to be called.
 class Shader {
 public:
@@ -115,6 +118,15 @@ public:
   /// Shades a batch. `entry` is an index into info().entries. Safe to call from any number of threads.
   virtual void run(size_t entry, const Batch& batch) const = 0;
   virtual FaultSite fault_site(uint32_t site) const = 0;
+
+  /// Whether the shader has a `print`. run() ignores it, at no cost.
+  virtual bool has_prints() const { return false; }
+  /// Shades one point of a batch again and gives what it prints to the sink, line by line; writes nothing to the batch.
+  /// What the top level prints is never given. Of compiled code, the first call compiles the shader once more, for one
+  /// lane.
+  virtual void print(size_t entry, const Batch& batch, uint64_t point, const PrintSink& sink) const {
+    static_cast<void>(entry), static_cast<void>(batch), static_cast<void>(point), static_cast<void>(sink);
+  }
 };
 
 struct Instantiation {

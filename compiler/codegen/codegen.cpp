@@ -114,6 +114,12 @@ void emit_module(Generated& generated, const ir::Module& module, const Options& 
   const FunctionAttributes attributes = attributes_for(parts.target, domain);
   const FaultPlaces places(module);
   ModuleEmitter emitter(*parts.module, module, domain, attributes, places);
+  const uint64_t print_slot = emitter.layout.size; // the layout is aligned
+  if (options.prints) {
+    info.print_slot = print_slot;
+    emitter.prints = &info.prints;
+    emitter.print_slot = print_slot;
+  }
   for (const ir::Entry& entry : module.entries) {
     std::vector<bool> uniform;
     for (const std::string& name : module.functions[entry.function].parameter_names)

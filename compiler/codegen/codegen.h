@@ -19,6 +19,7 @@ struct Options {
   std::string cpu = "native";              ///< "native" or a name of LLVM's
   std::string triple;                      ///< empty: this machine's
   std::vector<std::string> uniform_inputs; ///< by name of the parameter
+  bool prints = false;                     ///< emit `print` (print.h); for one lane
 };
 
 struct CInterface;
@@ -34,6 +35,12 @@ struct FaultPlaceInfo {
   std::string message;
 };
 
+/// A `print` of the shader: Instruction::text, and the types of the operands.
+struct PrintPlaceInfo {
+  std::string text;
+  std::vector<ValueType> types;
+};
+
 /// Everything about the generated code but the code.
 struct CodeInfo {
   Precision precision = Precision::F32;
@@ -43,6 +50,8 @@ struct CodeInfo {
   std::vector<uint64_t> global_offsets; ///< by GlobalId: where it lies in the instance's constants
   uint64_t constants_size = 0;
   std::vector<FaultPlaceInfo> places; ///< by fault site
+  std::vector<PrintPlaceInfo> prints; ///< where prints are emitted
+  uint64_t print_slot = 0;            ///< where the sink's address lies, behind constants_size bytes of constants
 };
 
 struct Times {

@@ -222,7 +222,7 @@ void FunctionEmitter::emit(ir::ValueId id, const ir::Instruction& instruction) {
   case Op::Step:
     return step(instruction);
   case Op::Print:
-    return;
+    return print(instruction);
   }
 }
 

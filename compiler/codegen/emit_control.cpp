@@ -93,6 +93,33 @@ void FunctionEmitter::fault(const ir::Instruction& instruction) {
   builder.SetInsertPoint(next);
 }
 
+/// A call of the host's moonshade_print, on one lane.
+void FunctionEmitter::print(const ir::Instruction& instruction) {
+  if (owner_.prints == nullptr || domain_.width != 1) return;
+  PrintPlaceInfo place{instruction.text, {}};
+  std::vector<llvm::Value*> components;
+  for (const ir::ValueId operand : instruction.operands) {
+    place.types.push_back(activation_->function->instructions[operand].type);
+    for (llvm::Value* part : value(operand).parts) {
+      if (part->getType()->isFloatTy()) part = builder.CreateFPExt(part, builder.getDoubleTy());
+      if (part->getType()->isDoubleTy()) part = builder.CreateBitCast(part, builder.getInt64Ty());
+      components.push_back(builder.CreateZExt(part, builder.getInt64Ty()));
+    }
+  }
+  llvm::Value* memory =
+      masks.allocate(llvm::ArrayType::get(builder.getInt64Ty(), std::max<size_t>(components.size(), 1)), "print");
+  for (size_t i = 0; i < components.size(); ++i)
+    builder.CreateStore(components[i],
+                        builder.CreateConstInBoundsGEP1_64(builder.getInt64Ty(), memory, static_cast<uint64_t>(i)));
+  llvm::Value* sink = builder.CreateLoad(
+      builder.getPtrTy(), builder.CreateConstInBoundsGEP1_64(builder.getInt8Ty(), constants_, owner_.print_slot));
+  auto* type = llvm::FunctionType::get(builder.getVoidTy(),
+                                       {builder.getPtrTy(), builder.getInt32Ty(), builder.getPtrTy()}, false);
+  builder.CreateCall(owner_.llvm_module.getOrInsertFunction("moonshade_print", type),
+                     {sink, builder.getInt32(static_cast<uint32_t>(owner_.prints->size())), memory});
+  owner_.prints->push_back(std::move(place));
+}
+
 void FunctionEmitter::step(const ir::Instruction& instruction) {
   llvm::Value* count = builder.CreateLoad(builder.getInt64Ty(), faults_.steps);
   count = builder.CreateAdd(count, builder.getInt64(1));

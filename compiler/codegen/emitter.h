@@ -13,6 +13,7 @@
 // zombies. Steps are counted for the block, as an upper bound for each of its lanes; see batch.h.
 #pragma once
 
+#include "compiler/codegen/codegen.h"
 #include "compiler/codegen/facts.h"
 #include "compiler/codegen/lanes.h"
 #include "compiler/codegen/masks.h"
@@ -97,6 +98,9 @@ public:
   const std::vector<FaultFacts> fault_facts;
   /// Some function faults for another reason than its steps.
   bool has_faults = false;
+  /// Prints are emitted: where they are collected, and where code finds the sink.
+  std::vector<PrintPlaceInfo>* prints = nullptr;
+  uint64_t print_slot = 0;
   /// While the init function is emitted, globals are not constant.
   bool constants_are_final = true;
 
@@ -191,6 +195,7 @@ private:
   // emit_control.cpp
   void if_else(const ir::Instruction& instruction);
   void return_values(ir::ValueId id, const ir::Instruction& instruction);
+  void print(const ir::Instruction& instruction);
   void fault(const ir::Instruction& instruction);
   void step(const ir::Instruction& instruction);
   void check_abort();

@@ -197,6 +197,7 @@ ValueId FunctionBuild::name(const NameExpr& expr) {
 ValueId FunctionBuild::index(const IndexExpr& expr) {
   const ExpressionFact& known = fact(expr);
   if (known.field != nullptr) return table_index(expr);
+  if (known.is_dynamic) return dynamic_component(expr);
   if (known.components.empty()) {
     if (known.name == NameKind::Constant) return constant(known);
     return kNone; // a function of a library's table
@@ -208,6 +209,21 @@ ValueId FunctionBuild::index(const IndexExpr& expr) {
   for (const uint8_t component : known.components)
     numbers.push_back(b_.component(object, component));
   return b_.construct(vector_type(static_cast<unsigned>(numbers.size())), numbers);
+}
+
+/// v[i]: the components are chosen from, so an index that faults cannot hurt.
+ValueId FunctionBuild::dynamic_component(const IndexExpr& expr) {
+  const ValueId object = evaluate(*expr.object);
+  ValueId index = evaluate(*expr.key);
+  if (b_.type_of(index) == ValueType::Number) index = integer_of(index);
+  const unsigned size = component_count(b_.type_of(object));
+  const ValueId below = b_.compare(Op::Lt, index, b_.integer(1));
+  const ValueId above = b_.compare(Op::Lt, b_.integer(size), index);
+  b_.fault(b_.binary(Op::Or, below, above), FaultCode::Index);
+  ValueId value = b_.component(object, size - 1);
+  for (unsigned i = size - 1; i-- > 0;)
+    value = b_.select(b_.compare(Op::Eq, index, b_.integer(i + 1)), b_.component(object, i), value);
+  return value;
 }
 
 // ---- operators
@@ -502,10 +518,15 @@ FunctionBuild::Values FunctionBuild::call(const Expr& expr) {
     return {construct(known.type.value, arguments)};
   case CallKind::Convert:
     return {converted(arguments[0], known.type.value)};
+  case CallKind::Modf:
+    return modf(arguments[0]);
   case CallKind::ToInteger:
     return {to_integer(known, arguments[0])};
   case CallKind::TableFunction:
     return {table_function(known, fact(*args[1]).type, arguments)};
+  case CallKind::Print:
+    print(args, arguments);
+    return {};
   case CallKind::Gradient:
     return {gradient(known, arguments[1])};
   case CallKind::Fwidth:
@@ -646,6 +667,22 @@ ValueId FunctionBuild::construct(ValueType type, const Values& arguments) {
   return b_.construct(type, numbers);
 }
 
+/// The integer that equals a number; a fault where there is none.
+ValueId FunctionBuild::integer_of(ValueId number) {
+  const ValueId call = library_value(*find_row("math.tointeger", {ValueType::Number}), ValueType::Integer, {number});
+  b_.fault(b_.unary(Op::Not, b_.result(call, 1, ValueType::Boolean)), FaultCode::IntegerRange);
+  return call;
+}
+
+/// lmathlib.c's math_modf; the rest of an infinity is 0.
+FunctionBuild::Values FunctionBuild::modf(ValueId argument) {
+  if (b_.type_of(argument) == ValueType::Integer) return {argument, b_.number(0)};
+  const ValueId whole = library_value(*find_row("trunc", {ValueType::Number}), ValueType::Number, {argument});
+  const ValueId is_whole = b_.compare(Op::Eq, argument, whole);
+  const ValueId rest = b_.select(is_whole, b_.number(0), b_.binary(Op::Sub, argument, whole));
+  return {integer_of(whole), rest};
+}
+
 ValueId FunctionBuild::to_integer(const ExpressionFact& known, ValueId argument) {
   const ValueId call = library_value(*known.library, ValueType::Integer, {argument});
   const ValueId ok = b_.result(call, 1, ValueType::Boolean);
@@ -658,6 +695,33 @@ void FunctionBuild::assertion(const Expr& expr, std::span<Expr* const> args, Val
   if (condition == kNone || b_.type_of(condition) != ValueType::Boolean) return;
   const At at(b_, expr.span);
   b_.fault(b_.unary(Op::Not, condition), FaultCode::Assert, message_of(args, 1, "assertion failed!"));
+}
+
+/// The arguments as the text of the line: strings are in it, values have their places there.
+void FunctionBuild::print(std::span<Expr* const> args, const Values& arguments) {
+  std::vector<sema::Type> types;
+  for (const Expr* arg : args)
+    types.push_back(fact(*arg).type);
+  if (!args.empty() && (args.back()->kind == ExprKind::Call || args.back()->kind == ExprKind::MethodCall)) {
+    types.pop_back();
+    const std::vector<sema::Type>& results = fact(*args.back()).results;
+    types.insert(types.end(), results.begin(), results.end());
+  }
+  Instruction line{};
+  line.op = Op::Print;
+  for (size_t i = 0; i < types.size() && i < arguments.size(); ++i) {
+    if (i != 0) line.text += '\t';
+    if (types[i].kind != sema::Type::Kind::String) {
+      line.text += kPrintValue;
+      line.operands.push_back(types[i].is_value() ? converted(arguments[i], types[i].value) : b_.boolean(false));
+      continue;
+    }
+    for (const char c : types[i].text) {
+      if (c == kPrintValue || c == kPrintEscape) line.text += kPrintEscape;
+      line.text += c;
+    }
+  }
+  b_.append(std::move(line));
 }
 
 std::string FunctionBuild::message_of(std::span<Expr* const> args, size_t index, std::string_view otherwise) const {

@@ -96,9 +96,13 @@ private:
   ValueId matrix_product(ValueId left, ValueId right);
   ValueId transposed(ValueId matrix);
   ValueId construct(ValueType type, const Values& arguments);
+  ValueId integer_of(ValueId number);
+  Values modf(ValueId argument);
+  ValueId dynamic_component(const syntax::IndexExpr& expr);
   ValueId to_integer(const sema::ExpressionFact& known, ValueId argument);
   void assertion(const syntax::Expr& expr, std::span<syntax::Expr* const> args, ValueId condition);
   ValueId library_value(const LibraryFunction& row, ValueType type, Values operands);
+  void print(std::span<syntax::Expr* const> args, const Values& arguments);
   void divisor_fault(ValueId divisor);
   std::string message_of(std::span<syntax::Expr* const> args, size_t index, std::string_view otherwise) const;
 

@@ -29,7 +29,13 @@ ValueId append_negation(Function& function, ValueId of, Span span, std::vector<V
 }
 
 void fuse(Function& function) {
-  const std::vector<uint32_t> uses = count_uses(function);
+  // What is printed is no use: the numbers are to be those of code without prints.
+  std::vector<uint32_t> uses = count_uses(function);
+  for_each_instruction(function, [&](ValueId id) {
+    if (function.instructions[id].op != Op::Print) return;
+    for (const ValueId operand : function.instructions[id].operands)
+      --uses[operand];
+  });
   rewrite_blocks(function, [&](ValueId id, std::vector<ValueId>& result) {
     const Op op = function.instructions[id].op;
     const ValueType type = function.instructions[id].type;

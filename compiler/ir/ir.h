@@ -44,6 +44,9 @@
 // goes on behind it. `return` gives the function's results. Nothing follows break or return in their block. A function
 // with results ends in a return on every path.
 //
+// Prints. `print` gives a line to whoever asked for it: its text, in which kPrintValue stands for the next operand, of
+// any type, and kPrintEscape for the character behind it, whatever that is.
+//
 // Faults. `fault` with a true condition ends the execution of the point, in whatever depth of calls; the point's
 // outputs are zero and the fault is reported with its kind and span. `step` counts one step of the point; the count of
 // Module::step_limit + 1 faults with StepLimit. Arithmetic never faults.
@@ -80,6 +83,9 @@ using GlobalId = uint32_t;
 using LabelId = uint32_t;
 inline constexpr uint32_t kNone = ~0u;
 
+/// In the text of a Print.
+inline constexpr char kPrintValue = '\x01', kPrintEscape = '\x02';
+
 struct Block {
   std::vector<ValueId> instructions;
 };
@@ -97,7 +103,7 @@ struct Instruction {
   uint32_t index = 0;                       // Argument, Component, Result: which; Load*/Store*: the variable or global;
                                             // Call: the function; Loop, Scope: own label; Break: target label
   FaultCode fault{};                        // Fault
-  std::string text;                         // Fault: message of assert and error; Print: label
+  std::string text;                         // Fault: message of assert and error; Print: the line
   const LibraryFunction* library = nullptr; // CallLibrary
   std::vector<VariableId> variables;        // Call: bound to the callee's captures
   std::vector<Block> blocks;                // If: then, else; Loop, Scope: body

@@ -30,6 +30,10 @@ void share_values(Function& function);
 /// Values without a use, stores to variables that are never loaded, unused variables. (dead_code.cpp)
 void remove_dead_code(Function& function);
 
+/// Whether some function prints; takes all prints out. (prints.cpp)
+bool has_prints(const Module& module);
+void remove_prints(Module& module);
+
 /// f32 only: a*b + c and its kin become fma. (fuse.cpp)
 void fuse(Module& module);
 

@@ -131,7 +131,9 @@ TypeList Walker::call_library(const CallExpr& expr, std::string_view name) {
   if (name == "math.floor" || name == "math.ceil" || name == "math.tointeger") return to_integer(expr, name);
   if (name == "math.max" || name == "math.min") return extremum(expr, name);
   if (name == "math.type") return math_type(expr);
+  if (name == "math.modf") return modf(expr);
   if (is_derivative(name)) return derivative_call(expr, name);
+  if (name == "print") return print(expr);
   const TypeList types = arguments(expr.args);
   if (types.open) return unknown_values();
   if (is_table_function(name, types)) return table_function(expr, name, types);
@@ -243,6 +245,28 @@ TypeList Walker::to_integer(const CallExpr& expr, std::string_view name) {
   return one(record(expr, std::move(fact)));
 }
 
+/// Of an integer too, and of what may be one: Lua gives the same values for 3 and 3.0.
+TypeList Walker::modf(const CallExpr& expr) {
+  const std::string name = "math.modf";
+  const TypeList args = arguments(expr.args);
+  ExpressionFact fact;
+  fact.type = integer_type();
+  fact.results = {integer_type(), number_type()};
+  fact.call = CallKind::Modf;
+  const TypeList results{fact.results, false};
+  if (args.open) return results;
+  if (args.types.empty()) {
+    type_error(Code::MissingArgument, expr.span, {"1", name, "x"});
+  } else if (args.types.size() > 1) {
+    error(Code::TooManyArguments, expr.args[std::min<size_t>(1, expr.args.size() - 1)]->span, {name, "1"});
+  } else if (!is_unknown(args.types[0]) && !is_scalar(args.types[0])) {
+    type_error(Code::ArgumentType, expr.args[0]->span, {"1", name, describe(args.types[0]), "a number"});
+  } else {
+    record(expr, std::move(fact));
+  }
+  return results;
+}
+
 TypeList Walker::math_type(const CallExpr& expr) {
   const TypeList args = arguments(expr.args);
   if (args.open || args.types.size() != 1 || is_unknown(args.types[0])) {
@@ -264,6 +288,26 @@ TypeList Walker::math_type(const CallExpr& expr) {
   fact.results = {result};
   fact.call = CallKind::Convert; // evaluates its argument; nobody looks at the value
   return one(record(expr, std::move(fact)));
+}
+
+TypeList Walker::print(const CallExpr& expr) {
+  const TypeList args = expression_list(expr.args);
+  for (size_t i = 0; i < args.types.size(); ++i) {
+    const Type& type = args.types[i];
+    const Expr& arg = *expr.args[std::min(i, expr.args.size() - 1)];
+    if (type.mixed && type.is_value()) {
+      refuse_mixed(arg, "print");
+    } else if (!is_unknown(type) && !type.is_value() && (type.kind != Type::Kind::String || type.is_parameter)) {
+      type_error(Code::ArgumentType, arg.span,
+                 {std::to_string(i + 1), "print", type.is_parameter ? "a string that is a parameter" : describe(type),
+                  "a boolean, integer, number, vector, matrix or constant string"});
+    }
+  }
+  ExpressionFact fact;
+  fact.type = none_type();
+  fact.call = CallKind::Print;
+  record(expr, std::move(fact));
+  return {};
 }
 
 TypeList Walker::assert_or_error(const CallExpr& expr, bool is_assert) {

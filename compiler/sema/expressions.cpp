@@ -303,9 +303,11 @@ Type Walker::vector_component(const IndexExpr& expr, const Type& object) {
     fact.components = {static_cast<uint8_t>(number->value - 1)};
   } else {
     const Type key_type = expression(*expr.key);
-    if (!is_unknown(key_type))
-      error(Code::NotAvailableYet, expr.key->span, {"a component whose index is no constant is"});
-    return number_type();
+    if (!is_unknown(key_type) && !is_scalar(key_type))
+      type_error(Code::OperandType, expr.key->span, {"[]", describe(key_type)});
+    fact.type = number_type();
+    fact.is_dynamic = true;
+    return record(expr, std::move(fact));
   }
   const size_t count = fact.components.size();
   fact.type = count == 1 ? number_type() : Type::of(vector_type(static_cast<unsigned>(count)));

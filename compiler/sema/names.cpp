@@ -54,7 +54,6 @@ constexpr RefusedName kRefusedNames[] = {
     {"math.random", Code::RandomNumbers, ""},
     {"math.randomseed", Code::RandomNumbers, ""},
     {"ipairs", Code::LibraryLeftOut, "it stands in 'for i, v in ipairs(array)' alone"},
-    {"print", Code::NotAvailableYet, "'print' is"},
     {"texture", Code::NotAvailableYet, "images ('texture') are"},
 };
 
@@ -76,10 +75,10 @@ constexpr std::string_view kPlannedFunctions[] = {
     "math.type",   "math.ult",
 };
 
-constexpr std::array<std::string_view, 17> kBuiltIn = {
-    "vec2",           "vec3",      "vec4",     "rgb",    "mat3",       "mat4",
-    "param",          "require",   "assert",   "error",  "math.floor", "math.ceil",
-    "math.tointeger", "math.type", "gradient", "fwidth", "ramp"};
+constexpr std::array<std::string_view, 19> kBuiltIn = {
+    "vec2",     "vec3",   "vec4",  "rgb",        "mat3",      "mat4",           "param",
+    "require",  "assert", "error", "math.floor", "math.ceil", "math.tointeger", "math.type",
+    "gradient", "fwidth", "ramp",  "print",      "math.modf"};
 
 constexpr LibraryConstant kConstants[] = {
     {"math.pi", false, std::numbers::pi, 0},

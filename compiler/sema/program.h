@@ -164,6 +164,8 @@ enum class CallKind : uint8_t {
   Parameter,      ///< param: Program::info.parameters[index]
   Assert,         ///< assert(c, message)
   Error,          ///< error(message)
+  Print,          ///< print(...): values, and strings by the types of their facts
+  Modf,           ///< math.modf: an integer, for which no 64-bit integer faults IntegerRange, and the rest
   Gradient,       ///< gradient(f, p): `callee` or, where that is null, `library`, of one parameter, by it
   Fwidth,         ///< fwidth(f, p, fw): the length of that, times the magnitude of fw
   TableFunction,  ///< ramp(x, t) and the like: `table_function`; `field` is t's element, `library` what goes between
@@ -219,6 +221,7 @@ struct ExpressionFact {
   ValueType operand_type = ValueType::Number; ///< operators: type to which both operands are converted first
   OperatorForm form = OperatorForm::Plain;
   TableFunction table_function = TableFunction::Ramp;
+  bool is_dynamic = false;         ///< `v[i]` of a vector, i from 1; faults Index outside
   std::vector<uint8_t> components; ///< component access and swizzles (`v.x`, `v.zyx`, `v[1]`): indices from 0
 };
 

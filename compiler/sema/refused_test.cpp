@@ -83,9 +83,7 @@ INSTANTIATE_TEST_SUITE_P(NotYet, RefusalTest,
                          Values(Refusal{"local m = require $'m'", {"module-not-found"}},
                                 Refusal{"local m = require $'../m'", {"module-name"}},
                                 Refusal{"local m = require($1)", {"module-name"}},
-                                Refusal{"$print(1)", {"not-available-yet"}},
                                 Refusal{"function color(p) return $texture('a.png', p.xy) end", {"not-available-yet"}},
-                                Refusal{"function height(p) local i = 1 return p[$i] end", {"not-available-yet"}},
                                 Refusal{"function height(p) return math.max(1, $p) end", {"argument-type"}}));
 
 INSTANTIATE_TEST_SUITE_P(

@@ -111,7 +111,9 @@ private:
   Type matrix_arithmetic(const syntax::BinaryExpr& expr, const Type& left, const Type& right);
   TypeList extremum(const syntax::CallExpr& expr, std::string_view name);
   TypeList to_integer(const syntax::CallExpr& expr, std::string_view name);
+  TypeList modf(const syntax::CallExpr& expr);
   TypeList math_type(const syntax::CallExpr& expr);
+  TypeList print(const syntax::CallExpr& expr);
   TypeList assert_or_error(const syntax::CallExpr& expr, bool is_assert);
   /// Argument types, the last call expanded; functions among them are refused.
   TypeList arguments(std::span<syntax::Expr* const> args);

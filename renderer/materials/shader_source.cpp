@@ -117,7 +117,7 @@ ShaderLoad RuntimeShaders::load(const std::string& file, const std::map<std::str
   // Steps are counted exactly where the shader is compiled; the interpreter's guard against endless loops is enough
   // here.
   Instantiation instance = options_.backend == Backend::Interp
-                               ? interpret(*shader.checked, merged, {.count_steps = false})
+                               ? interpret(*shader.checked, merged, {.count_steps = false, .impatient = true})
                                : shader.program->instantiate(merged);
   load.shader = instance.shader;
   if (!load.shader) load.error = file + ": " + instance.error;

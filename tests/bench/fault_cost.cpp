@@ -12,6 +12,7 @@
 #include <cstdio>
 #include <cstring>
 #include <fstream>
+#include <optional>
 #include <random>
 #include <sstream>
 
@@ -92,7 +93,7 @@ size_t strip(ir::Module& module) {
 /// Code for one entry.
 struct Code {
   codegen::CodeInfo info;
-  JitCode jit;
+  std::optional<JitCode> jit;
   codegen::Kernel kernel = nullptr;
   std::vector<uint64_t> constants;
 };
@@ -106,7 +107,7 @@ bool generate(const ir::Module& module, const CompileOptions& options, Code& cod
   }
   code.info = std::move(generated.info);
   code.jit = JitCode::load(std::move(object));
-  code.kernel = reinterpret_cast<codegen::Kernel>(code.jit.function(code.info.entries[0].symbol));
+  code.kernel = reinterpret_cast<codegen::Kernel>(code.jit->function(code.info.entries[0].symbol));
   code.constants.assign(code.info.constants_size / 8 + 1, 0);
   return code.kernel != nullptr;
 }
@@ -126,7 +127,7 @@ void fill_constants(Code& code, const ir::Module& module, const ShaderInfo& info
   }
   if (code.info.init_symbol.empty()) return;
   uint32_t fault = 0;
-  codegen::call_init(reinterpret_cast<codegen::Init>(code.jit.function(code.info.init_symbol)), bytes, fault);
+  codegen::call_init(reinterpret_cast<codegen::Init>(code.jit->function(code.info.init_symbol)), bytes, fault);
 }
 
 /// Arrays of points: numbers in -2..2, integers in 1..9.

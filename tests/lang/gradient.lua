@@ -86,3 +86,24 @@ end
 -- expect: 6, 0.5
 -- run: from_top
 -- expect: 6
+
+-- A function that was passed, and tables inside one.
+local function bumped(f, p, n)
+  return normalize(n - 0.1 * gradient(f, p))
+end
+
+function passed(p, n)
+  return bumped(height, p, n), bumped(noise, p, n)
+end
+
+function tables(p)
+  return gradient(function(q)
+    local a = { q.x, q.y, q.z }
+    local s = 0.0
+    for i, v in ipairs(a) do s = s + v * i end
+    a[2] = s * a[1]
+    local r = { d = a[2], k = 2.0 }
+    r.d = r.d + q.z * a[3]
+    return r.d * r.k
+  end, p)
+end

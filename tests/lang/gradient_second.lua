@@ -61,8 +61,8 @@ function matrices(p, n)
     return gradient(function(r)
       local m = mat3(vec3(2, r.x, 0), vec3(r.y * 0.1, 3, r.z), vec3(q.x, 0, 60))
       local k = mat4(vec4(9, r.x, 0, 1), vec4(0, 8, r.y, 0), vec4(1, 0, 70, r.z), vec4(0, 1, 0, 80))
-      return (m * r).y + determinant(m) * 0.01 + (inverse(m) * r).z + (transpose(m) * q).x + rotate(r, axis, r.x * 0.2).y
-             + rotate(r.xy, r.z).x + determinant(k) * 1e-4 + (inverse(k) * vec4(r, 1)).x + (rotate(axis, r.y) * q).x
+      return (m * r).y + determinant(m) * 0.001 + (inverse(m) * r).z + (transpose(m) * q).x + rotate(r, axis, r.x * 0.2).y
+             + rotate(r.xy, r.z).x + determinant(k) * 1e-6 + (inverse(k) * vec4(r, 1)).x + (rotate(axis, r.y) * q).x
     end, q).x
   end, p)
 end

@@ -195,6 +195,7 @@ public:
     const FaultReport report = points_.run(shader_, entry_, count);
     if (report.count != 0 && faults_ == 0) note_first(report);
     faults_ += report.count;
+    print_lines(count);
     done_ += count;
     std::string text;
     for (size_t row = 0; row < count; ++row) {
@@ -214,6 +215,14 @@ public:
   }
 
 private:
+  /// What the points print, in their order, while it is not much.
+  void print_lines(size_t count) {
+    for (size_t row = 0; row < count && shader_.has_prints() && lines_ < kMostLines; ++row)
+      points_.print(shader_, entry_, row, [&](std::string_view line) {
+        if (lines_++ < kMostLines) std::cerr << line << '\n';
+      });
+  }
+
   void note_first(const FaultReport& report) {
     const FaultSite site = shader_.fault_site(report.first_site);
     first_ = site.file + ":" + std::to_string(site.line) + ":" + std::to_string(site.column) +
@@ -227,7 +236,9 @@ private:
   const Shader& shader_;
   size_t entry_;
   Points points_;
+  static constexpr size_t kMostLines = 100;
   uint64_t faults_ = 0, done_ = 0;
+  size_t lines_ = 0;
   std::string first_;
 };
 

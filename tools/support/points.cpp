@@ -89,6 +89,17 @@ FaultReport Points::run_range(const Shader& shader, size_t entry, size_t begin, 
   return report;
 }
 
+void Points::print(const Shader& shader, size_t entry, size_t row, const PrintSink& sink) const {
+  std::vector<const void*> inputs;
+  inputs.reserve(inputs_.size());
+  for (const Column& column : inputs_)
+    inputs.push_back(column.bytes.data());
+  Batch batch;
+  batch.count = capacity_;
+  batch.inputs = inputs.data();
+  shader.print(entry, batch, row, sink);
+}
+
 void Points::append_row(std::string& out, size_t row) const {
   if (fault(row) != FaultCode::None) {
     out += "fault: ";

@@ -32,6 +32,9 @@ public:
   /// Shades rows begin .. begin + count - 1; calls for separate rows may run at once.
   FaultReport run_range(const Shader& shader, size_t entry, size_t begin, size_t count);
 
+  /// What a row prints, line by line.
+  void print(const Shader& shader, size_t entry, size_t row, const PrintSink& sink) const;
+
   /// Appends "fault: KIND" or the results of a row, separated by ", ".
   void append_row(std::string& out, size_t row) const;
 
