@@ -65,7 +65,7 @@ template <class L, class P> struct Octave {
 template <class L, class P, class F> MS_INLINE void each_octave(P p, const Octaves<L>& given, F add) {
   L limit = constant<L>(kMaxOctaves), zero = constant<L>(0), one = constant<L>(1);
   L wanted = select(less(zero, given.octaves), select(less(given.octaves, limit), given.octaves, limit), zero);
-  const int count = greatest(convert<Int32<Plain<L>>>(ceil(wanted)));
+  const int count = greatest(convert<Int32<ValueOf<L>>>(ceil(wanted)));
   const auto filters = less(zero, given.width);
   const bool any_filters = any(filters);
   p = joined(p, given.lacunarity);

@@ -40,12 +40,12 @@ template <int N, class L> MS_INLINE Vec<N, L> random_direction(L a, L b) {
 /// Wave vectors: all the same, or of one length in random directions.
 template <int N, class L> struct OneWave {
   Vec<N, L> wave;
-  MS_INLINE Vec<N, L> of(Plain<L>, Plain<L>) const { return wave; }
+  MS_INLINE Vec<N, L> of(ValueOf<L>, ValueOf<L>) const { return wave; }
 };
 template <int N, class L> struct AnyDirection {
   L frequency;
-  MS_INLINE Vec<N, L> of(Plain<L> a, Plain<L> b) const {
-    return map<N, L>([&](Plain<L> x) __attribute__((always_inline)) { return constant_of<L>(x) * frequency; },
+  MS_INLINE Vec<N, L> of(ValueOf<L> a, ValueOf<L> b) const {
+    return map<N, L>([&](ValueOf<L> x) __attribute__((always_inline)) { return constant_of<L>(x) * frequency; },
                      random_direction<N>(a, b));
   }
 };
@@ -57,9 +57,9 @@ template <int N> inline constexpr double kGaborScale = N == 1 ? 0.23306 : N == 2
 
 template <class L, int N, class Lattice, class Waves>
 MS_INLINE L gabor_noise(const Vec<N, L>& p, const Lattice& lattice, const Waves& waves) {
-  using P = Plain<L>;
+  using P = ValueOf<L>;
   using U = UInt32<P>;
-  const Vec<N, P> at = plain(p);
+  const Vec<N, P> at = value_of(p);
   const Vec<N, P> cell = map<N, P>([](P x) __attribute__((always_inline)) { return floor(x); }, at), place = at - cell;
   L sum = joined(constant<L>(0), p, waves.of(constant<P>(0), constant<P>(0)));
   constexpr int cells = N == 1 ? 3 : N == 2 ? 9 : 27;

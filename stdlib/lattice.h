@@ -42,11 +42,11 @@ template <int N, class L> struct Periodic {
 };
 
 /// Dual numbers' lattices are those of their values.
-template <PlainLane L> MS_INLINE L plain(const L& x) { return x; }
-template <DualLane D> MS_INLINE typename D::Lane plain(const D& x) { return x.v; }
-template <class L> using Plain = decltype(plain(std::declval<L>()));
-template <int N, class L> MS_INLINE Vec<N, Plain<L>> plain(const Vec<N, L>& v) {
-  return map<N, Plain<L>>([](const L& x) __attribute__((always_inline)) { return plain(x); }, v);
+template <PlainLane L> MS_INLINE L value_of(const L& x) { return x; }
+template <DualLane D> MS_INLINE typename D::Lane value_of(const D& x) { return x.v; }
+template <class L> using ValueOf = decltype(value_of(std::declval<L>()));
+template <int N, class L> MS_INLINE Vec<N, ValueOf<L>> value_of(const Vec<N, L>& v) {
+  return map<N, ValueOf<L>>([](const L& x) __attribute__((always_inline)) { return value_of(x); }, v);
 }
 /// A number of L that has no derivative.
 template <class L> MS_INLINE L constant_of(L x) { return x; }

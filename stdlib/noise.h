@@ -313,7 +313,7 @@ template <class L> MS_INLINE L noise(L x) { return noise<L>(Vec<1, L>{{x}}); }
 template <DualLane D, int N> MS_INLINE D noise(Vec<N, D> p) {
   using L = typename D::Lane;
   SumWithGradient<L, N> sum;
-  add_noise<L>(plain(p), sum);
+  add_noise<L>(value_of(p), sum);
   return chain<D>(sum.value * constant<L>(kNoiseScale<N>), p, sum.gradient(kNoiseScale<N>));
 }
 
@@ -327,7 +327,7 @@ template <class L, int N> MS_INLINE Vec<3, L> vnoise(Vec<N, L> p) {
 template <DualLane D, int N> MS_INLINE Vec<3, D> vnoise(Vec<N, D> p) {
   using L = typename D::Lane;
   Three<SumWithGradient<L, N>> sum;
-  add_noise<L>(plain(p), sum);
+  add_noise<L>(value_of(p), sum);
   const auto component = [&](int i) __attribute__((always_inline)) {
     return chain<D>(sum.each[i].value * constant<L>(kNoiseScale<N>), p, sum.each[i].gradient(kNoiseScale<N>));
   };

@@ -113,8 +113,8 @@ template <class L, int N> MS_INLINE L periodic_noise(const Vec<N, L>& p, const V
 template <DualLane D, int N> MS_INLINE D periodic_noise(const Vec<N, D>& p, const Vec<N, D>& period) {
   using L = typename D::Lane;
   SumWithGradient<L, N == 2 ? 3 : N> sum;
-  add_periodic_noise(periodic_space(plain(p), 0.25), Periodic < N == 2 ? 3 : N, L > (periodic_space(plain(period), 1)),
-                     sum);
+  add_periodic_noise(periodic_space(value_of(p), 0.25), Periodic < N == 2 ? 3 : N,
+                     L > (periodic_space(value_of(period), 1)), sum);
   return chain<D>(sum.value * constant<L>(kPeriodicScale<N>), periodic_space(p, 0.25), sum.gradient(kPeriodicScale<N>));
 }
 

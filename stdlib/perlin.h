@@ -190,7 +190,7 @@ template <class L, int N, int K> struct PerlinCell {
 /// K noises at a point.
 template <int K, class L, int N, class Wrap> MS_INLINE Vec<K, L> perlin_noises(const Vec<N, L>& p, Wrap wrap) {
   using T = typename Interpolated<L, N>::Type;
-  const PerlinCell<Plain<L>, N, K> cell(plain(p), wrap);
+  const PerlinCell<ValueOf<L>, N, K> cell(value_of(p), wrap);
   const Vec<K, T> values = cell.template value<T>(UInt32<L>(0u), cell.place);
   return [&]<size_t... I>(std::index_sequence<I...>) __attribute__((always_inline)) {
     return Vec<K, L>{{noise_value(values[I], p)...}};
@@ -205,7 +205,7 @@ template <class L> MS_INLINE L perlin(Vec<4, L> p) { return perlin_noises<1>(p, 
 
 template <class L, class P> MS_INLINE L pperlin(const P& p, const P& period) {
   const auto lattice = periodic<L>(period);
-  return perlin_noises<1>(as_vector(p), [&](const Plain<L>& i, int axis) __attribute__((always_inline)) {
+  return perlin_noises<1>(as_vector(p), [&](const ValueOf<L>& i, int axis) __attribute__((always_inline)) {
     return wrapped(i, lattice.period[axis]);
   })[0];
 }

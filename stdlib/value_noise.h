@@ -47,14 +47,14 @@ template <class L, int N> struct ValueCell {
 
 template <class L, int N, class Lattice> MS_INLINE L value_noise(const Vec<N, L>& p, const Lattice& lattice) {
   using T = typename Interpolated<L, N>::Type;
-  return noise_value(ValueCell<Plain<L>, N>(plain(p), lattice).template value<T>(0), p);
+  return noise_value(ValueCell<ValueOf<L>, N>(value_of(p), lattice).template value<T>(0), p);
 }
 
 template <class L, int N, class Lattice> MS_INLINE UInt32<L> cell_hash(const Vec<N, L>& p, const Lattice& lattice) {
   UInt32<L> hash = UInt32<L>(0u);
 #pragma clang loop unroll(full)
   for (int i = 0; i < N; ++i)
-    hash ^= lattice.at(floor(plain(p[i])), i, 0);
+    hash ^= lattice.at(floor(value_of(p[i])), i, 0);
   return hash;
 }
 
@@ -66,7 +66,7 @@ template <class L, int N> inline constexpr int dimensions_of<Vec<N, L>> = N;
 
 /// The lattice with a period given as the point is.
 template <class L, class P> MS_INLINE auto periodic(const P& period) {
-  return Periodic<dimensions_of<P>, Plain<L>>(plain(as_vector(period)));
+  return Periodic<dimensions_of<P>, ValueOf<L>>(value_of(as_vector(period)));
 }
 
 // The rows of the table; P is L or Vec<N, L> --------------------------------------------------------------------------
@@ -79,7 +79,7 @@ template <class L, class P> MS_INLINE Vec<3, L> vvaluenoise(const P& given) {
   constexpr int N = dimensions_of<P>;
   using T = typename Interpolated<L, N>::Type;
   const Vec<N, L>& p = as_vector(given);
-  const ValueCell<Plain<L>, N> cell(plain(p), Endless());
+  const ValueCell<ValueOf<L>, N> cell(value_of(p), Endless());
   return {{noise_value(cell.template value<T>(0), p), noise_value(cell.template value<T>(1), p),
            noise_value(cell.template value<T>(2), p)}};
 }

@@ -172,13 +172,13 @@ private:
 
 template <class L, int N, class Lattice, class Metric>
 MS_INLINE Results<L, L, L> worley_noise(const Vec<N, L>& p, const Lattice& lattice, const Metric& metric) {
-  using P = Plain<L>;
-  const auto found = WorleySearch<P, N, Lattice, Metric, is_dual<L>>(plain(p), lattice, metric).run();
+  using P = ValueOf<L>;
+  const auto found = WorleySearch<P, N, Lattice, Metric, is_dual<L>>(value_of(p), lattice, metric).run();
   // Infinity less its floor is NaN too.
-  P place = plain(p)[0] - floor(plain(p)[0]);
+  P place = value_of(p)[0] - floor(value_of(p)[0]);
 #pragma clang loop unroll(full)
   for (int i = 1; i < N; ++i)
-    place = place + (plain(p)[i] - floor(plain(p)[i]));
+    place = place + (value_of(p)[i] - floor(value_of(p)[i]));
   auto undefined = is_nan(place);
   const auto result = [&](P measure, const Vec<N, P>& way) __attribute__((always_inline)) {
     L nan = constant<L>(__builtin_nan(""));
@@ -195,10 +195,10 @@ template <class L, class P> MS_INLINE Results<L, L, L> worley(const P& p) {
   return worley_noise<L>(as_vector(p), Endless(), EuclideanMetric());
 }
 template <class L, class P> MS_INLINE Results<L, L, L> worley(const P& p, const L& metric) {
-  return worley_noise<L>(as_vector(p), Endless(), AnyMetric<Plain<L>>(plain(metric)));
+  return worley_noise<L>(as_vector(p), Endless(), AnyMetric<ValueOf<L>>(value_of(metric)));
 }
 template <class L, class P> MS_INLINE Results<L, L, L> pworley(const P& p, const P& period, const L& metric) {
-  return worley_noise<L>(as_vector(p), periodic<L>(period), AnyMetric<Plain<L>>(plain(metric)));
+  return worley_noise<L>(as_vector(p), periodic<L>(period), AnyMetric<ValueOf<L>>(value_of(metric)));
 }
 
 } // namespace moonshade::stdlib
