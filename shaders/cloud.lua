@@ -1,6 +1,6 @@
 -- cloud.lua: weather in a thin shell around a planet of radius 1
 local cover   = param("cover", 0.45, { min = 0, max = 1, doc = "share of the sky that is overcast" })
-local density_ = param("thickness", 260, { min = 0, max = 5000, doc = "extinction of the densest cloud" })
+local density_ = param("thickness", 100, { min = 0, max = 5000, doc = "extinction of the densest cloud" })
 
 local FLOOR <const> = 1.012
 local TOP   <const> = 1.05

@@ -1,6 +1,6 @@
 -- A fire between stones: a volume that glows and lights what is around it.
-camera { from = { 0, 1.5, 5.2 }, to = { 0, 0.95, 0 }, fov = 36 }
-render { width = 640, height = 360, samples = 128, depth = 5, tonemap = "filmic", clamp = 8 }
+camera { from = { 0, 1.5, 5.2 }, to = { 0, 0.95, 0 }, fov = 32 }
+render { width = 640, height = 360, samples = 512, depth = 3, tonemap = "filmic", clamp = 2 }
 
 plane { material = material { name = "floor", color = { 0.30, 0.26, 0.23 }, roughness = 0.8 } }
 local stone = material { name = "stone", shader = "marble.lua" }
@@ -12,5 +12,5 @@ end
 box { center = { 0, 1.2, 0 }, size = { 1.6, 2.4, 1.6 }, translate = { 0, 0.02, 0 }, material = material { name = "fire", shader = "fire.lua" } }
 
 -- what volumes emit is found only by rays that cross them: a lamp in the flame spares noise
-light { type = "point", position = { 0, 0.9, 0 }, color = { 1.6, 0.62, 0.16 } }
+light { type = "point", position = { 0, 0.9, 0 }, color = { 2.4, 0.95, 0.26 } }
 light { type = "sky", zenith = { 0.012, 0.016, 0.03 }, horizon = { 0.02, 0.022, 0.03 }, ground = { 0.01, 0.01, 0.01 } }

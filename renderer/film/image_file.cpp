@@ -46,10 +46,8 @@ std::string ImageFile::format_of(const std::string& path) {
   return "";
 }
 
-/// Replaces what the file holds, all the way to the disk. Error, or empty.
-static std::string write_bytes(const std::string& path, const std::vector<unsigned char>& bytes) {
-  int file = ::open(path.c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC);
-  if (file < 0) return std::strerror(errno);
+/// Writes to an open file, all the way to the disk, and closes it. Error, or empty.
+static std::string write_and_close(int file, const std::vector<unsigned char>& bytes) {
   int error = 0;
   for (size_t done = 0; done < bytes.size() && error == 0;) {
     ssize_t count = ::write(file, bytes.data() + done, bytes.size() - done);
@@ -60,6 +58,12 @@ static std::string write_bytes(const std::string& path, const std::vector<unsign
   if (error == 0 && ::fsync(file) != 0 && errno != EINVAL) error = errno;
   if (::close(file) != 0 && error == 0) error = errno;
   return error ? std::strerror(error) : "";
+}
+
+/// Replaces what the file holds.
+static std::string write_bytes(const std::string& path, const std::vector<unsigned char>& bytes) {
+  int file = ::open(path.c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC);
+  return file < 0 ? std::strerror(errno) : write_and_close(file, bytes);
 }
 
 std::string ImageFile::open(const std::string& name) {
@@ -73,12 +77,24 @@ std::string ImageFile::open(const std::string& name) {
   if (fs::exists(path, error) && !fs::is_regular_file(path, error)) return path + ": is no regular file";
   if (fs::exists(path, error) && ::access(path.c_str(), W_OK) != 0) return path + ": " + std::strerror(errno);
   path_ = path;
-  std::string temporary;
-  if (std::string message = create_temporary(temporary); !message.empty()) return message;
   // A full disk gives a name, but no block.
-  std::string message = write_bytes(temporary, std::vector<unsigned char>(4096));
-  ::unlink(temporary.c_str());
-  return message.empty() ? "" : path + ": " + message;
+  return try_folder(std::vector<unsigned char>(4096));
+}
+
+/// Error where the folder cannot take a file of these bytes: one without a name, where the file system has such: a
+/// process that is killed meanwhile leaves nothing.
+std::string ImageFile::try_folder(const std::vector<unsigned char>& bytes) const {
+  std::string folder = fs::path(path_).parent_path().string();
+  int nameless = ::open(folder.empty() ? "." : folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0600);
+  std::string temporary, message;
+  if (nameless >= 0) {
+    message = write_and_close(nameless, bytes);
+  } else {
+    if (message = create_temporary(temporary); !message.empty()) return message;
+    message = write_bytes(temporary, bytes);
+    ::unlink(temporary.c_str());
+  }
+  return message.empty() ? "" : path_ + ": " + message;
 }
 
 std::string ImageFile::create_temporary(std::string& temporary) const {

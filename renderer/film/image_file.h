@@ -52,6 +52,7 @@ public:
   static std::string format_of(const std::string& path);
 
 private:
+  std::string try_folder(const std::vector<unsigned char>& bytes) const;
   std::string create_temporary(std::string& temporary) const;
   std::string encode_file(const std::string& file, std::vector<unsigned char>& bytes, const Picture& picture,
                           const DisplaySettings& display, const ImageMetadata& metadata, const Layers& layers,

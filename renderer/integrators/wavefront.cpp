@@ -300,7 +300,7 @@ void Wavefront::deliver(const Task& task, const SampleOutputs& out) {
       value = Vec3(0);
       paths_[k].faulted = true;
     }
-    float brightest = max_component(value);
+    float brightest = max_component(glm::abs(value)); // tracking through volumes also gives negative samples
     if (settings_.clamp > 0 && brightest > settings_.clamp) value *= settings_.clamp / brightest;
     out.radiance[k] = value;
     if (out.faulted) out.faulted[k] = paths_[k].faulted;

@@ -8,9 +8,9 @@ namespace moonshade::renderer {
 namespace {
 
 constexpr int kCells = 48; ///< along the longest side
-constexpr int kEach = 12;  ///< points looked at in a cell
+constexpr int kEach = 64;  ///< points looked at in a cell
 constexpr float kSafety = 1.25f;
-constexpr float kLeast = 1e-3f; ///< of the greatest control: none is zero where a shader may be greater
+constexpr float kLeast = 4e-3f; ///< of the greatest control: none is zero where a shader may be greater
 
 /// The density at points of every cell; a fault counts as nothing here and is met again while rendering.
 std::vector<float> measure(const Scene& scene, const PlacedObject& placed, uint32_t id,
