@@ -62,7 +62,7 @@ W number(double x) { return constant<W>(x); }
   }
 
 // Limits, mean and standard deviation as the headers state them or follow from what they state; where only a sum of
-// everything's maxima bounds the range, what 10^9 points have shown, rounded up.
+// everything's maxima bounds the range, what the points looked at have shown, rounded up.
 const Noise kNoises[] = {
     {"noise1", OF(1, noise<W>(p)), -1, 1, 0, 0.330, true},
     {"noise2", OF(2, noise<W>(p)), -1, 1, 0, 0.544, true},

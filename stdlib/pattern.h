@@ -2,9 +2,10 @@
 // square box filter of that width sees: at width 0 the pattern itself, its mean where the width is great. checker,
 // stripes, tiles and brick are filtered exactly (brick where the footprint is no wider than a row; beyond, rows are
 // averaged in pairs); dots, hexagons and voronoi by the distance to the nearest edge, blending into the mean, within a
-// few hundredths of the exact value (pattern_test.cpp measures). Where a pattern has cells, it gives three numbers: the
-// value, a random number in [0, 1) that is the cell's own (not filtered), and the distance to the cell's edge, positive
-// inside. NaN coordinates give NaN; beyond 2^22 floats leave no room for a fraction.
+// few tenths of the exact value at single points, a few hundredths in the mean square (pattern_test.cpp measures).
+// Where a pattern has cells, it gives three numbers: the value, a random number in [0, 1) that is the cell's own (not
+// filtered), and the distance to the cell's edge, positive inside. NaN coordinates give NaN; beyond 2^22 floats leave
+// no room for a fraction.
 //
 // Sources: the filtered pulse after A. Apodaca and L. Gritz, "Advanced RenderMan" (1999), ch. 11; distances to edges of
 // hexagons and voronoi cells after I. Quilez, "Voronoi edges" (2013).
