@@ -1,6 +1,8 @@
 // Calls of the library's exports and of functions of the module (emitter.h).
 #include "compiler/codegen/emitter.h"
 
+#include "stdlib/images.h"
+
 namespace moonshade::codegen {
 
 // --------------------------------------------------------------------------------------------------------- Library
@@ -172,6 +174,7 @@ std::vector<Lanes> FunctionEmitter::library_call(const LibraryFunction& row, con
 
 std::vector<Lanes> FunctionEmitter::call_library(const ir::Instruction& instruction) {
   const LibraryFunction& row = *instruction.library;
+  if (is_texture(row)) return texture(instruction);
   std::vector<Lanes> arguments;
   for (const ir::ValueId operand : instruction.operands)
     arguments.push_back(value(operand));
