@@ -1,20 +1,14 @@
 // What all noises promise (noise.h, perlin.h, value_noise.h, worley.h, gabor.h, periodic_noise.h, curl.h, fractal.h):
 // range, mean and spread, continuity over the borders of cells, period, isotropy and spectrum, what is far away or
-// undefined; and each family's own. scripts/exhaustive looks for the ranges over 10^9 points
-// (MOONSHADE_NOISE_SAMPLES).
-#include "stdlib/curl.h"
+// undefined; and each family's own. scripts/exhaustive looks for the ranges over 10^9 points.
 #include "stdlib/fractal.h"
-#include "stdlib/gabor.h"
-#include "stdlib/periodic_noise.h"
-#include "stdlib/perlin.h"
-#include "stdlib/worley.h"
+#include "stdlib/noises_for_test.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <cstring>
 #include <limits>
 #include <numbers>
@@ -35,83 +29,12 @@ using W = Wide<double, 8>;
 template <int N> using V = Vec<N, double>;
 template <int N> using WV = Vec<N, W>;
 
-/// A noise over eight points of up to four dimensions at once.
-struct Noise {
-  const char* name;
-  int dimensions;
-  W (*at)(const WV<4>&);
-  double low, high, mean, deviation;
-  bool smooth;
-};
-
-template <int N> WV<N> first_of(const WV<4>& p) {
-  WV<N> q;
-  for (int i = 0; i < N; ++i)
-    q[i] = p[i];
-  return q;
-}
-template <int N> WV<N> all(double x) {
-  return map<N, W>([](W x) { return x; }, constant<W>(x));
-}
+template <int N> WV<N> all(double x) { return vector_of<N, W>(x); }
 W number(double x) { return constant<W>(x); }
 
-#define OF(N, expression)                                                                                              \
-  N, [](const WV<4>& p4) -> W {                                                                                        \
-    [[maybe_unused]] const auto p = first_of<N>(p4);                                                                   \
-    return expression;                                                                                                 \
-  }
+const std::vector<Noise<W>> kNoises = all_noises<W>();
 
-// Limits, mean and standard deviation as the headers state them or follow from what they state; where only a sum of
-// everything's maxima bounds the range, what the points looked at have shown, rounded up.
-const Noise kNoises[] = {
-    {"noise1", OF(1, noise<W>(p)), -1, 1, 0, 0.330, true},
-    {"noise2", OF(2, noise<W>(p)), -1, 1, 0, 0.544, true},
-    {"noise3", OF(3, noise<W>(p)), -1, 1, 0, 0.392, true},
-    {"noise4", OF(4, noise<W>(p)), -1, 1, 0, 0.254, true},
-    {"perlin1", OF(1, perlin<W>(p[0])), -1, 1, 0, 0.194, true},
-    {"perlin2", OF(2, perlin<W>(p)), -1, 1, 0, 0.256, true},
-    {"perlin3", OF(3, perlin<W>(p)), -1.04, 1.04, 0, 0.271, true},
-    {"perlin4", OF(4, perlin<W>(p)), -1.5, 1.5, 0, 0.293, true},
-    {"valuenoise1", OF(1, valuenoise<W>(p)), -1, 1, 0, 0.517, true},
-    {"valuenoise2", OF(2, valuenoise<W>(p)), -1, 1, 0, 0.454, true},
-    {"valuenoise3", OF(3, valuenoise<W>(p)), -1, 1, 0, 0.400, true},
-    {"valuenoise4", OF(4, valuenoise<W>(p)), -1, 1, 0, 0.354, true},
-    {"cellnoise1", OF(1, cellnoise<W>(p)), 0, 1, 0.5, 0.2887, false},
-    {"cellnoise3", OF(3, cellnoise<W>(p)), 0, 1, 0.5, 0.2887, false},
-    {"cellnoise4", OF(4, cellnoise<W>(p)), 0, 1, 0.5, 0.2887, false},
-    {"worley1", OF(1, worley<W>(p).first), 0, 1, 0.292, 0.201, false},
-    {"worley2", OF(2, worley<W>(p).first), 0, 1.4143, 0.429, 0.190, false},
-    {"worley3", OF(3, worley<W>(p).first), 0, 1.7321, 0.520, 0.172, false},
-    {"worley4", OF(4, worley<W>(p).first), 0, 2, 0.590, 0.156, false},
-    {"worley3 F2", OF(3, worley<W>(p).second), 0, 2.07, 0.717, 0.143, false},
-    {"worley3 cell", OF(3, worley<W>(p).third), 0, 1, 0.5, 0.2887, false},
-    {"worley3 manhattan", OF(3, worley<W>(p, number(1)).first), 0, 3, 0.765, 0.255, false},
-    {"worley3 chebyshev", OF(3, worley<W>(p, number(INFINITY)).first), 0, 1, 0.421, 0.140, false},
-    {"gabor1", OF(1, gabor<W>(p, number(4))), -8, 8, 0, 0.333, true},
-    {"gabor2", OF(2, gabor<W>(p, number(4))), -8, 8, 0, 0.333, true},
-    {"gabor3", OF(3, gabor<W>(p, number(4))), -8, 8, 0, 0.333, true},
-    {"gabor3 wave", OF(3, gabor<W>(p, all<3>(2.5))), -8, 8, 0, 0.333, true},
-    {"pnoise1", OF(1, pnoise<W>(p, all<1>(4096))), -1, 1, 0, 0.330, true},
-    {"pnoise2", OF(2, pnoise<W>(p, all<2>(113))), -1, 1, 0, 0.452, true},
-    {"pnoise3", OF(3, pnoise<W>(p, all<3>(113))), -1, 1, 0, 0.393, true},
-    {"pnoise4", OF(4, pnoise<W>(p, all<4>(113))), -1, 1, 0, 0.351, true},
-    {"pperlin3", OF(3, pperlin<W>(p, all<3>(113))), -1.04, 1.04, 0, 0.271, true},
-    {"pvaluenoise3", OF(3, pvaluenoise<W>(p, all<3>(113))), -1, 1, 0, 0.400, true},
-    {"pcellnoise3", OF(3, pcellnoise<W>(p, all<3>(113))), 0, 1, 0.5, 0.2887, false},
-    {"pworley3", OF(3, pworley<W>(p, all<3>(113), number(2)).first), 0, 1.7321, 0.520, 0.172, false},
-    {"pgabor2", OF(2, pgabor<W>(p, all<2>(113), number(4))), -8, 8, 0, 0.333, true},
-    {"vnoise3 y", OF(3, vnoise<W>(p)[1]), -1, 1, 0, 0.392, true},
-    {"vnoise4 z", OF(4, vnoise<W>(p)[2]), -1, 1, 0, 0.254, true},
-    {"vperlin3 z", OF(3, vperlin<W>(p)[2]), -1.04, 1.04, 0, 0.271, true},
-    {"vvaluenoise2 y", OF(2, vvaluenoise<W>(p)[1]), -1, 1, 0, 0.454, true},
-    {"vcellnoise3 z", OF(3, vcellnoise<W>(p)[2]), 0, 1, 0.5, 0.2887, false},
-    {"curl2 x", OF(2, curl<W>(p)[0]), -10, 10, 0, 2.60, false},
-    {"curl3 y", OF(3, curl<W>(p)[1]), -10, 10, 0, 2.48, false},
-    {"curl4 z", OF(4, curl<W>(p)[2]), -10, 10, 0, 1.555, false},
-};
-
-void PrintTo(const Noise& noise, std::ostream* out) { *out << noise.name; }
-std::string test_name(const testing::TestParamInfo<Noise>& info) {
+std::string test_name(const testing::TestParamInfo<Noise<W>>& info) {
   std::string name = info.param.name;
   std::ranges::replace(name, ' ', '_');
   return name;
@@ -135,12 +58,11 @@ struct Points {
   }
 };
 
-class NoiseRange : public testing::TestWithParam<Noise> {};
+class NoiseRange : public testing::TestWithParam<Noise<W>> {};
 
 TEST_P(NoiseRange, IsNeverLeftAndHasItsMeanAndSpread) {
-  const Noise& noise = GetParam();
-  const char* wanted = std::getenv("MOONSHADE_NOISE_SAMPLES");
-  const uint64_t blocks = (wanted == nullptr ? 160'000 : std::strtoull(wanted, nullptr, 10)) / 8;
+  const Noise<W>& noise = GetParam();
+  const uint64_t blocks = 20'000;
   W low = number(INFINITY), high = number(-INFINITY), sum = number(0), squares = number(0);
   Points points;
   for (uint64_t i = 0; i < blocks; ++i) {
@@ -155,8 +77,6 @@ TEST_P(NoiseRange, IsNeverLeftAndHasItsMeanAndSpread) {
   for (int lane = 0; lane < 8; ++lane)
     mean += sum[lane] / count, square += squares[lane] / count;
   const double deviation = std::sqrt(square - mean * mean);
-  if (wanted != nullptr)
-    std::printf("%s: %.6f to %.6f, mean %.5f, standard deviation %.5f\n", noise.name, least, most, mean, deviation);
   EXPECT_GE(least, noise.low);
   EXPECT_LE(most, noise.high);
   EXPECT_NEAR(mean, noise.mean, 0.02 * noise.deviation + 0.007);
@@ -166,10 +86,10 @@ TEST_P(NoiseRange, IsNeverLeftAndHasItsMeanAndSpread) {
 INSTANTIATE_TEST_SUITE_P(Families, NoiseRange, testing::ValuesIn(kNoises), test_name);
 
 /// Along random lines through points on the borders of cells and of simplices.
-class NoiseContinuity : public testing::TestWithParam<Noise> {};
+class NoiseContinuity : public testing::TestWithParam<Noise<W>> {};
 
 TEST_P(NoiseContinuity, HoldsForValueAndSlopeOverBorders) {
-  const Noise& noise = GetParam();
+  const Noise<W>& noise = GetParam();
   if (!noise.smooth) GTEST_SKIP() << "not differentiable everywhere";
   const double h = 1e-4;
   Points points;
@@ -402,13 +322,13 @@ double unevenness(const std::array<double, 8>& values) {
   return *std::ranges::max_element(values) / *std::ranges::min_element(values);
 }
 
-W simplex2(const WV<4>& p) { return noise<W>(first_of<2>(p)); }
-W simplex3(const WV<4>& p) { return noise<W>(first_of<3>(p)); }
+W simplex2(const WV<4>& p) { return noise<W>(first_of<2, W>(p)); }
+W simplex3(const WV<4>& p) { return noise<W>(first_of<3, W>(p)); }
 W simplex4(const WV<4>& p) { return noise<W>(p); }
-W periodic2(const WV<4>& p) { return pnoise<W>(first_of<2>(p), all<2>(113)); }
-W periodic3(const WV<4>& p) { return pnoise<W>(first_of<3>(p), all<3>(113)); }
-W gabor2(const WV<4>& p) { return gabor<W>(first_of<2>(p), number(4)); }
-W wave2(const WV<4>& p) { return gabor<W>(first_of<2>(p), WV<2>{{number(4), number(0)}}); }
+W periodic2(const WV<4>& p) { return pnoise<W>(first_of<2, W>(p), all<2>(113)); }
+W periodic3(const WV<4>& p) { return pnoise<W>(first_of<3, W>(p), all<3>(113)); }
+W gabor2(const WV<4>& p) { return gabor<W>(first_of<2, W>(p), number(4)); }
+W wave2(const WV<4>& p) { return gabor<W>(first_of<2, W>(p), WV<2>{{number(4), number(0)}}); }
 
 TEST(Isotropy, SlopesAreAlikeInAllDirections) {
   EXPECT_LT(unevenness(slopes(simplex2, 2)), 1.12);
@@ -466,9 +386,10 @@ TEST(Spectrum, SimplexIsABandBelowTwoWavesAndGaborWhereItIsPut) {
     EXPECT_LT(*std::ranges::max_element(power), 0.06) << "no line stands out";
   }
   EXPECT_GT(band(spectrum(wave2, 2), 3, 4), 0.3);
-  EXPECT_GT(band(spectrum([](const WV<4>& p) { return gabor<W>(first_of<2>(p), WV<2>{{number(2.5), number(0)}}); }, 2),
-                 1.5, 3.5),
-            0.98);
+  EXPECT_GT(
+      band(spectrum([](const WV<4>& p) { return gabor<W>(first_of<2, W>(p), WV<2>{{number(2.5), number(0)}}); }, 2),
+           1.5, 3.5),
+      0.98);
 }
 
 /// Lattice artefacts would show as likeness of points whole units apart.
@@ -511,7 +432,7 @@ TEST(NoiseFarAway, HasCellsOfItsOwnToTwoToThe22) {
 
 TEST(NoiseFarAway, IsWithinItsRangeOrNaN) {
   for (double far : {0x1p23, 1e9, -1e15, 1e30, 1e300})
-    for (const Noise& noise : kNoises) {
+    for (const Noise<W>& noise : kNoises) {
       WV<4> p = all<4>(0.3);
       p[0] = number(far);
       const double x = noise.at(p)[0];
@@ -521,7 +442,7 @@ TEST(NoiseFarAway, IsWithinItsRangeOrNaN) {
 
 TEST(NoiseFarAway, IsNaNForNaNAndInfinity) {
   for (double undefined : {double(NAN), double(INFINITY), -double(INFINITY)})
-    for (const Noise& noise : kNoises) {
+    for (const Noise<W>& noise : kNoises) {
       const std::string name = noise.name;
       if (name.find("cell") != std::string::npos) continue; // cells like others
       for (int axis = 0; axis < noise.dimensions; ++axis) {
