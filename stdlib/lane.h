@@ -13,7 +13,9 @@
 #include <cstdint>
 #include <type_traits>
 
+#ifndef MS_INLINE // the bitcode's build has its own (CMakeLists.txt)
 #define MS_INLINE [[gnu::always_inline]] inline
+#endif
 
 namespace moonshade::stdlib {
 
