@@ -1,6 +1,7 @@
 // What all noises promise (noise.h, perlin.h, value_noise.h, worley.h, gabor.h, periodic_noise.h, curl.h, fractal.h):
-// range, mean and spread, continuity over the borders of cells, period, isotropy and spectrum, what is far away or
-// undefined; and each family's own. scripts/exhaustive looks for the ranges over 10^9 points.
+// range, mean and spread, continuity over the borders of cells, period, what is far away or
+// undefined (isotropy and spectrum: noise_spectrum_test.cpp); and each family's own. scripts/exhaustive looks for the
+// ranges over 10^9 points.
 #include "stdlib/fractal.h"
 #include "stdlib/noises_for_test.h"
 
@@ -32,6 +33,8 @@ template <int N> using WV = Vec<N, W>;
 template <int N> WV<N> all(double x) { return vector_of<N, W>(x); }
 W number(double x) { return constant<W>(x); }
 
+using Points = RandomPoints<W>;
+
 const std::vector<Noise<W>> kNoises = all_noises<W>();
 
 std::string test_name(const testing::TestParamInfo<Noise<W>>& info) {
@@ -39,24 +42,6 @@ std::string test_name(const testing::TestParamInfo<Noise<W>>& info) {
   std::ranges::replace(name, ' ', '_');
   return name;
 }
-
-/// Points all over a block of side 1000, by a counter.
-struct Points {
-  uint64_t state = 1;
-  double next() {
-    state += 0x9e3779b97f4a7c15u;
-    uint64_t x = (state ^ (state >> 30)) * 0xbf58476d1ce4e5b9u;
-    x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
-    return double(int64_t(x ^ (x >> 31))) * 0x1p-63 * 500;
-  }
-  WV<4> block(int dimensions) {
-    WV<4> p = all<4>(0);
-    for (int i = 0; i < dimensions; ++i)
-      for (int lane = 0; lane < 8; ++lane)
-        p[i][lane] = next();
-    return p;
-  }
-};
 
 class NoiseRange : public testing::TestWithParam<Noise<W>> {};
 
@@ -298,117 +283,6 @@ TEST(Curl, IsTheCurlOfThePotential) {
   const V<2> q = {{0.31, -2.7}};
   EXPECT_NEAR(curl<double>(q)[0],
               (noise<double>(V<2>{{q[0], q[1] + h}}) - noise<double>(V<2>{{q[0], q[1] - h}})) / (2 * h), 1e-7);
-}
-
-// Isotropy and spectrum -----------------------------------------------------------------------------------------------
-
-/// The mean square of the noise's slope in directions of the plane, by differences.
-std::array<double, 8> slopes(W (*noise_at)(const WV<4>&), int dimensions) {
-  std::array<double, 8> result = {};
-  Points points;
-  for (int k = 0; k < 8; ++k) {
-    const double angle = std::numbers::pi * k / 8, h = 1e-3;
-    for (int n = 0; n < 6000; ++n) {
-      WV<4> p = points.block(dimensions), q = p;
-      q[0] += number(h * std::cos(angle));
-      q[1] += number(h * std::sin(angle));
-      const W slope = (noise_at(q) - noise_at(p)) / number(h), square = slope * slope;
-      result[size_t(k)] += __builtin_reduce_max(square) > 1e6 ? 0 : square[0] + square[3] + square[5];
-    }
-  }
-  return result;
-}
-double unevenness(const std::array<double, 8>& values) {
-  return *std::ranges::max_element(values) / *std::ranges::min_element(values);
-}
-
-W simplex2(const WV<4>& p) { return noise<W>(first_of<2, W>(p)); }
-W simplex3(const WV<4>& p) { return noise<W>(first_of<3, W>(p)); }
-W simplex4(const WV<4>& p) { return noise<W>(p); }
-W periodic2(const WV<4>& p) { return pnoise<W>(first_of<2, W>(p), all<2>(113)); }
-W periodic3(const WV<4>& p) { return pnoise<W>(first_of<3, W>(p), all<3>(113)); }
-W gabor2(const WV<4>& p) { return gabor<W>(first_of<2, W>(p), number(4)); }
-W wave2(const WV<4>& p) { return gabor<W>(first_of<2, W>(p), WV<2>{{number(4), number(0)}}); }
-
-TEST(Isotropy, SlopesAreAlikeInAllDirections) {
-  EXPECT_LT(unevenness(slopes(simplex2, 2)), 1.12);
-  EXPECT_LT(unevenness(slopes(simplex3, 3)), 1.12);
-  EXPECT_LT(unevenness(slopes(simplex4, 4)), 1.12);
-  EXPECT_LT(unevenness(slopes(periodic2, 2)), 1.12);
-  EXPECT_LT(unevenness(slopes(periodic3, 3)), 1.12);
-  EXPECT_LT(unevenness(slopes(gabor2, 2)), 1.12);
-  EXPECT_GT(unevenness(slopes(wave2, 2)), 5) << "the measure tells a direction";
-}
-
-/// Power by frequency along x, in units of the mean over all: 256 samples, 8 to the unit, under a Hann window.
-std::vector<double> spectrum(W (*noise_at)(const WV<4>&), int dimensions) {
-  constexpr int count = 256;
-  std::vector<double> power(count / 2);
-  Points points;
-  for (int line = 0; line < 40; ++line) {
-    const WV<4> start = points.block(dimensions);
-    std::vector<double> samples;
-    for (int i = 0; i < count; ++i) {
-      WV<4> p = start;
-      p[0] += number(i / 8.0);
-      samples.push_back(noise_at(p)[0] * (1 - std::cos(2 * std::numbers::pi * i / count)));
-    }
-    for (int f = 0; f < count / 2; ++f) {
-      double re = 0, im = 0;
-      for (int i = 0; i < count; ++i) {
-        const double angle = 2 * std::numbers::pi * f * i / count;
-        re += samples[size_t(i)] * std::cos(angle), im += samples[size_t(i)] * std::sin(angle);
-      }
-      power[size_t(f)] += re * re + im * im;
-    }
-  }
-  double total = 0;
-  for (double p : power)
-    total += p;
-  for (double& p : power)
-    p /= total;
-  return power;
-}
-
-/// The part of the power between two frequencies, in waves to the unit.
-double band(const std::vector<double>& power, double low, double high) {
-  double sum = 0;
-  for (size_t f = 0; f < power.size(); ++f)
-    if (double(f) / 32 >= low && double(f) / 32 < high) sum += power[f];
-  return sum;
-}
-
-TEST(Spectrum, SimplexIsABandBelowTwoWavesAndGaborWhereItIsPut) {
-  for (auto simplex : {simplex2, simplex3, simplex4, periodic2, periodic3}) {
-    const auto power = spectrum(simplex, simplex == simplex4 ? 4 : simplex == simplex2 || simplex == periodic2 ? 2 : 3);
-    EXPECT_GT(band(power, 0, 2), 0.98);
-    EXPECT_LT(band(power, 3, 4), 0.001);
-    EXPECT_LT(*std::ranges::max_element(power), 0.06) << "no line stands out";
-  }
-  EXPECT_GT(band(spectrum(wave2, 2), 3, 4), 0.3);
-  EXPECT_GT(
-      band(spectrum([](const WV<4>& p) { return gabor<W>(first_of<2, W>(p), WV<2>{{number(2.5), number(0)}}); }, 2),
-           1.5, 3.5),
-      0.98);
-}
-
-/// Lattice artefacts would show as likeness of points whole units apart.
-TEST(Spectrum, PointsUnitsApartAreNotAlike) {
-  for (auto noise_at : {simplex2, simplex3, simplex4, periodic3}) {
-    for (int axis = 0; axis < 2; ++axis)
-      for (int units = 2; units < 6; ++units) {
-        Points points;
-        double product = 0, square = 0;
-        for (int n = 0; n < 10000; ++n) {
-          WV<4> p = points.block(4), q = p;
-          q[axis] += number(units);
-          const W a = noise_at(p), b = noise_at(q);
-          for (int lane = 0; lane < 8; ++lane)
-            product += a[lane] * b[lane], square += a[lane] * a[lane];
-        }
-        EXPECT_LT(std::abs(product / square), 0.025) << axis << " " << units;
-      }
-  }
 }
 
 // Far away and undefined ----------------------------------------------------------------------------------------------

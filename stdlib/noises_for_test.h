@@ -36,6 +36,24 @@ template <int N, class W> Vec<N, W> vector_of(double x) {
   return map<N, W>([](W x) { return x; }, constant<W>(x));
 }
 
+/// Points all over a block of side 1000, by a counter.
+template <class W> struct RandomPoints {
+  uint64_t state = 1;
+  double next() {
+    state += 0x9e3779b97f4a7c15u;
+    uint64_t x = (state ^ (state >> 30)) * 0xbf58476d1ce4e5b9u;
+    x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
+    return double(int64_t(x ^ (x >> 31))) * 0x1p-63 * 500;
+  }
+  Vec<4, W> block(int dimensions) {
+    Vec<4, W> p = vector_of<4, W>(0);
+    for (int i = 0; i < dimensions; ++i)
+      for (int lane = 0; lane < width_of<W>; ++lane)
+        p[i][lane] = next();
+    return p;
+  }
+};
+
 #define OF(N, expression)                                                                                              \
   N, [](const Vec<4, W>& p4) -> W {                                                                                    \
     [[maybe_unused]] const auto p = first_of<N, W>(p4);                                                                \
