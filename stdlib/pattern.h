@@ -317,7 +317,9 @@ template <class L, int N> MS_INLINE Cell<L> voronoi_cell(const Vec<N, L>& p, L w
     to_nearest = select<N, L>(nearer, to, to_nearest);
     nearest_cell = select<N, L>(nearer, cell, nearest_cell);
   });
-  // The nearest two borders: half way to another site, across the line between the two.
+  // The nearest border, and where there is anything to filter the next one: half way to another site, across the line
+  // between the two.
+  const bool filtered = is_dual<L> || any(!less_equal(width, zero));
   L far = joined(constant<L>(1e30), p, jitter);
   Vec<N, L> nowhere = joined(home * zero, p, jitter);
   Border<L, N> first = {far, nowhere}, second = first;
@@ -326,26 +328,32 @@ template <class L, int N> MS_INLINE Cell<L> voronoi_cell(const Vec<N, L>& p, L w
     Vec<N, L> to = cell_site(nearest_cell + offset, jitter) - p, across = to - to_nearest;
     L square = dot(across, across), inverse = one / sqrt(square);
     Border<L, N> here = {dot(to + to_nearest, across) * half * inverse, across * inverse};
-    auto is_border = less(constant<L>(1e-12), square);
-    auto nearer = is_border & less(here.distance, first.distance),
-         next = is_border & less(here.distance, second.distance);
-    second.distance = select(nearer, first.distance, select(next, here.distance, second.distance));
-    second.direction = select<N, L>(nearer, first.direction, select<N, L>(next, here.direction, second.direction));
-    second_site = select<N, L>(nearer, first_site, select<N, L>(next, to, second_site));
+    auto is_border = less(constant<L>(1e-12), square), nearer = is_border & less(here.distance, first.distance);
+    if (filtered) {
+      auto next = is_border & less(here.distance, second.distance);
+      second.distance = select(nearer, first.distance, select(next, here.distance, second.distance));
+      second.direction = select<N, L>(nearer, first.direction, select<N, L>(next, here.direction, second.direction));
+      second_site = select<N, L>(nearer, first_site, select<N, L>(next, to, second_site));
+      first.direction = select<N, L>(nearer, here.direction, first.direction);
+      first_site = select<N, L>(nearer, to, first_site);
+    }
     first.distance = select(nearer, here.distance, first.distance);
-    first.direction = select<N, L>(nearer, here.direction, first.direction);
-    first_site = select<N, L>(nearer, to, first_site);
   });
-  // Three cells meet here. Each border between two is a strip, as far as the third cell leaves it.
-  Vec<N, L> across = second_site - first_site;
-  L inverse = one / sqrt(dot(across, across) + constant<L>(1e-20)), side = border * half;
-  Border<L, N> third = {dot(first_site + second_site, across) * half * inverse, across * inverse};
-  auto strip = [&](const Border<L, N>& b) __attribute__((always_inline)) {
-    return beyond_border(b, side, width) - beyond_border(b, -side, width);
-  };
-  L h1 = beyond_border(first, zero, width), h2 = beyond_border(second, zero, width);
-  L value = (one - strip(first) * h2) * (one - strip(second) * h1) * (one - strip(third) * nmadd(h1 + h2, 0.5, one));
-  return {value, hash(nearest_cell), nmadd(border, 0.5, first.distance)};
+  L side = border * half, edge = first.distance - side, value = filtered_step(edge, zero, zero);
+  value = joined(value, p, width, border, jitter);
+  if (filtered) {
+    // Three cells meet here. Each border between two is a strip, as far as the third cell leaves it.
+    Vec<N, L> across = second_site - first_site;
+    L inverse = one / sqrt(dot(across, across) + constant<L>(1e-20));
+    Border<L, N> third = {dot(first_site + second_site, across) * half * inverse, across * inverse};
+    auto strip = [&](const Border<L, N>& b) __attribute__((always_inline)) {
+      return beyond_border(b, side, width) - beyond_border(b, -side, width);
+    };
+    L h1 = beyond_border(first, zero, width), h2 = beyond_border(second, zero, width);
+    L seen = (one - strip(first) * h2) * (one - strip(second) * h1) * (one - strip(third) * nmadd(h1 + h2, 0.5, one));
+    value = select(less_equal(width, zero), value, seen);
+  }
+  return {value, hash(nearest_cell), edge};
 }
 
 /// The nearest of random points, one in each unit square or cube, and the distance to the border with the next. In the
