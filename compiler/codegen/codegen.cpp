@@ -6,6 +6,7 @@
 #include "compiler/codegen/entry.h"
 #include "compiler/codegen/link.h"
 #include "compiler/codegen/pipeline.h"
+#include "compiler/codegen/tables.h"
 #include "compiler/codegen/target.h"
 
 #include <llvm/ADT/SmallString.h>
@@ -146,6 +147,7 @@ void emit_module(Generated& generated, const ir::Module& module, const Options& 
     generated.error = "internal error: " + complaint;
 #endif
   if (generated.error.empty()) link_library(*parts.module, domain, attributes, generated.error);
+  if (generated.error.empty()) define_tables(*parts.module, parts.target);
 }
 
 std::string machine_code(Generated& generated, llvm::CodeGenFileType type) {

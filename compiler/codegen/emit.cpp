@@ -200,7 +200,7 @@ void FunctionEmitter::emit(ir::ValueId id, const ir::Instruction& instruction) {
     return set(id, {{operand(0).parts[instruction.index]}});
   case Op::CallLibrary:
   case Op::Call: {
-    std::vector<Lanes> results = instruction.op == Op::Call ? call(id, instruction) : call_library(instruction);
+    std::vector<Lanes> results = instruction.op == Op::Call ? call(id, instruction) : call_library(id, instruction);
     if (!results.empty()) set(id, results[0]);
     activation_->call_results[id] = std::move(results);
     return;

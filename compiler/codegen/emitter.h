@@ -84,7 +84,8 @@ public:
   /// The LLVM function of an outlined function of the IR.
   llvm::Function* outlined(ir::FunctionId function, const ir::Signature& signature);
   /// The library function for lanes or, with `varying` false, for one value: by value, pure.
-  llvm::Function* library_function(const LibraryFunction& row, bool varying);
+  /// `wanted`: a bit for each of the row's results that is used.
+  llvm::Function* library_function(const LibraryFunction& row, bool varying, uint32_t wanted);
   /// The type of the results, as outlined functions give them back.
   llvm::Type* results_type(const ir::Function& function, const ir::Uniformity& uniformity) const;
   uint32_t place(const ir::Instruction& instruction) const { return places_.numbers.at(&instruction); }
@@ -187,9 +188,9 @@ private:
   llvm::Value* compare(ir::Op op, ValueType type, llvm::Value* a, llvm::Value* b);
 
   // emit_calls.cpp
-  std::vector<Lanes> call_library(const ir::Instruction& instruction);
+  std::vector<Lanes> call_library(ir::ValueId id, const ir::Instruction& instruction);
   std::vector<Lanes> texture(const ir::Instruction& instruction); // emit_images.cpp
-  std::vector<Lanes> library_call(const LibraryFunction& row, const std::vector<Lanes>& arguments);
+  std::vector<Lanes> library_call(const LibraryFunction& row, const std::vector<Lanes>& arguments, uint32_t wanted);
   std::vector<Lanes> call(ir::ValueId id, const ir::Instruction& instruction);
   std::vector<Lanes> call_outlined(ir::FunctionId callee, const ir::Signature& signature,
                                    const std::vector<Lanes>& arguments, const std::vector<Slot>& captures);

@@ -55,6 +55,9 @@ private:
       for (const ir::Block& block : instruction.blocks)
         walk(block);
       break;
+    case Op::Result:
+      if (instruction.index < 32) facts_.further_results[instruction.operands[0]] |= 1U << instruction.index;
+      break;
     case Op::Break:
       if (varying(id)) bypass(instruction.index);
       break;

@@ -6,6 +6,7 @@
 #include "compiler/ir/ir.h"
 #include "compiler/ir/uniformity.h"
 
+#include <unordered_map>
 #include <vector>
 
 namespace moonshade::codegen {
@@ -16,6 +17,8 @@ struct FunctionFacts {
   TargetFacts function;
   /// By VariableId; null: a capture, or never accessed.
   std::vector<const ir::Block*> homes;
+  /// Of calls of the library: a bit for each result from the second on that something uses.
+  std::unordered_map<ir::ValueId, uint32_t> further_results;
 };
 
 FunctionFacts function_facts(const ir::Function& function, const ir::Uniformity& uniformity);
