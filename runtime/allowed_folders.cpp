@@ -36,7 +36,7 @@ ResolvedPath AllowedFolders::resolve(const std::string& base_folder, const std::
   }
   const fs::path real = fs::weakly_canonical(path, error);
   const bool inside = !error && std::ranges::any_of(roots_, [&](const fs::path& root) { return lies_in(real, root); });
-  if (!inside) return {"", "'" + name + "' lies outside the folders of the scene"};
+  if (!inside) return {"", "'" + name + "' lies outside the folders that may be read"};
   if (!fs::exists(real, error)) return {"", "there is no file '" + name + "'"};
   if (!fs::is_regular_file(real, error)) return {"", "'" + name + "' is not a file"};
   return {path.lexically_normal().string(), ""};

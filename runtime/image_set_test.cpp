@@ -48,13 +48,13 @@ struct Host {
 };
 
 /// The results of one entry of `uv` and `fw` at points around the unit square.
-struct Run {
+struct Shading {
   std::vector<double> values;
   std::string error;
 };
 constexpr size_t kPoints = 67;
 
-template <class T> Run run_as(const Shader& shader, const std::string& name) {
+template <class T> Shading run_as(const Shader& shader, const std::string& name) {
   const ShaderInfo& info = shader.info();
   size_t entry = 0;
   while (info.entries[entry].name != name)
@@ -76,14 +76,14 @@ template <class T> Run run_as(const Shader& shader, const std::string& name) {
   for (auto& output : outputs)
     pointers.push_back(output.data());
   shader.run(entry, {kPoints, inputs.data(), pointers.data()});
-  Run run;
+  Shading run;
   for (const auto& output : outputs)
     run.values.insert(run.values.end(), output.begin(), output.end());
   return run;
 }
 
-Run compiled(const std::string& text, Host& host, Precision precision, unsigned width, const std::string& entry = "f",
-             std::vector<Gradient> gradients = {}) {
+Shading compiled(const std::string& text, Host& host, Precision precision, unsigned width,
+                 const std::string& entry = "f", std::vector<Gradient> gradients = {}) {
   CompileOptions options;
   options.precision = precision;
   options.width = width;
@@ -96,7 +96,7 @@ Run compiled(const std::string& text, Host& host, Precision precision, unsigned 
   return precision == Precision::F32 ? run_as<float>(*instance.shader, entry) : run_as<double>(*instance.shader, entry);
 }
 
-void expect_same(const Run& a, const Run& b) {
+void expect_same(const Shading& a, const Shading& b) {
   EXPECT_EQ(a.error, b.error);
   ASSERT_EQ(a.values.size(), b.values.size());
   for (size_t i = 0; i < a.values.size(); ++i)
@@ -113,13 +113,13 @@ constexpr const char* kDivided = R"(
 
 TEST(ImageSet, GivesTheSameAtEveryWidthAndInStockLua) {
   Host host;
-  const Run wide = compiled(kDivided, host, Precision::F64, 16);
+  const Shading wide = compiled(kDivided, host, Precision::F64, 16);
   EXPECT_THAT(host.asked,
               testing::ElementsAre("a.png in scene/a.lua", "b.png in scene/a.lua", "a.png in scene/a.lua raw"));
   ASSERT_EQ(wide.error, "");
   for (const unsigned width : {1u, 4u, 8u, 32u})
     expect_same(compiled(kDivided, host, Precision::F64, width), wide);
-  const Run floats = compiled(kDivided, host, Precision::F32, 1);
+  const Shading floats = compiled(kDivided, host, Precision::F32, 1);
   for (const unsigned width : {4u, 8u, 16u, 32u})
     expect_same(compiled(kDivided, host, Precision::F32, width), floats);
   const CheckedShader checked("scene/a.lua", kDivided);
@@ -144,7 +144,7 @@ TEST(ImageSet, AsksOnlyForLanesThatLook) {
 TEST(ImageSet, HasDerivatives) {
   Host host;
   const std::string text = "function f(uv) return texture('a.png', uv * 0.5).y end";
-  const Run run = compiled(text, host, Precision::F64, 8, "f'uv", {{"f", {"uv"}}});
+  const Shading run = compiled(text, host, Precision::F64, 8, "f'uv", {{"f", {"uv"}}});
   ASSERT_EQ(run.error, "");
   for (size_t i = 10; i < kPoints; ++i) {
     const double x = (double(i) * 0.37 - 9) / 2, y = (3 - double(i) * 0.11) / 2;
@@ -185,7 +185,7 @@ TEST(ImageSet, ParametersNameImages) {
 
 TEST(ImageSet, AreOpenBeforeTheTopLevelRuns) {
   Host host;
-  const Run run =
+  const Shading run =
       compiled("local c = texture('a.png', vec2(0.5, 0.25)).x\nfunction f(uv) return c end", host, Precision::F32, 8);
   ASSERT_EQ(run.error, "");
   EXPECT_EQ(float(run.values[0]), Waves::value(0, 0.5f, 0.25f, 0));
