@@ -8,6 +8,7 @@
 #include "compiler/codegen/pipeline.h"
 #include "compiler/codegen/tables.h"
 #include "compiler/codegen/target.h"
+#include "compiler/codegen/width.h"
 
 #include <llvm/ADT/SmallString.h>
 #include <llvm/Analysis/LoopInfo.h>
@@ -200,7 +201,7 @@ Generated generate(const ir::Module& module, const Options& options) {
     return generated;
   }
   generated.info.precision = options.precision;
-  generated.info.width = options.width != 0 ? options.width : best_width(parts.target, options.precision);
+  generated.info.width = choose_width(module, parts.target, options).width;
   parts.context.setDiagnosticHandlerCallBack(listen, &parts);
   parts.module = std::make_unique<llvm::Module>("shader", parts.context);
   parts.module->setTargetTriple(parts.target.machine->getTargetTriple().str());

@@ -28,7 +28,7 @@ struct Target {
 
 Target make_target(const TargetOptions& options);
 
-/// The lane count that suits the target best: one machine vector of the precision's numbers.
+/// The lane count of one machine vector of the precision's numbers. (What code is made for is choose_width's.)
 unsigned best_width(const Target& target, Precision precision);
 /// The same for this machine.
 unsigned native_width(Precision precision);
