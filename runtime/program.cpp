@@ -5,6 +5,7 @@
 #include "runtime/floating_point.h"
 #include "runtime/frontend_parts.h"
 #include "runtime/gradients.h"
+#include "runtime/image_set.h"
 #include "runtime/jit.h"
 #include "runtime/print_text.h"
 #include "runtime/shader.h"
@@ -39,6 +40,7 @@ struct Compiled {
   std::vector<ParameterSlot> slots;
   std::vector<FaultSite> sites;
   CompileTimes times;
+  ImageOpener opener;
 
   // Where the shader prints: what the code that prints is made of, once somebody asks for it.
   std::shared_ptr<const ir::Module> with_prints; ///< null: it does not print
@@ -61,12 +63,15 @@ struct Constants {
 
 std::shared_ptr<const Compiled> printing_code(const Compiled& compiled);
 /// The constants of an instance, with the parameters' values and what the top level gives; or its fault.
-Constants make_constants(const Compiled& compiled, const std::vector<Constant>& values, uint32_t& fault);
+Constants make_constants(const Compiled& compiled, const std::vector<Constant>& values, const ImageSet& images,
+                         uint32_t& fault);
 
 class CompiledShader final : public Shader {
 public:
-  CompiledShader(std::shared_ptr<const Compiled> compiled, Constants constants, std::vector<Constant> parameters)
-      : compiled_(std::move(compiled)), constants_(std::move(constants)), parameters_(std::move(parameters)) {}
+  CompiledShader(std::shared_ptr<const Compiled> compiled, Constants constants, std::vector<Constant> parameters,
+                 std::shared_ptr<const ImageSet> images)
+      : compiled_(std::move(compiled)), constants_(std::move(constants)), parameters_(std::move(parameters)),
+        images_(std::move(images)) {}
 
   const ShaderInfo& info() const override { return compiled_->info; }
   Precision precision() const override { return compiled_->generated.precision; }
@@ -103,7 +108,7 @@ public:
     for (uint64_t& result : results)
       outputs.push_back(&result);
     uint32_t fault = 0;
-    const Constants constants = make_constants(*code, parameters_, fault);
+    const Constants constants = make_constants(*code, parameters_, *images_, fault);
     const PrintContext context{code.get(), &sink};
     const PrintContext* address = &context;
     std::memcpy(constants.bytes.get() + code->generated.print_slot, static_cast<void*>(&address), sizeof address);
@@ -117,6 +122,7 @@ private:
   std::shared_ptr<const Compiled> compiled_;
   Constants constants_;
   std::vector<Constant> parameters_; ///< their values
+  std::shared_ptr<const ImageSet> images_;
 };
 
 void store_number(std::byte* target, Precision precision, double value) {
@@ -151,8 +157,11 @@ void store_constant(std::byte* target, ValueType type, Precision precision, cons
   }
 }
 
-Constants make_constants(const Compiled& compiled, const std::vector<Constant>& values, uint32_t& fault) {
-  Constants constants(compiled.generated.constants_size + sizeof(PrintContext*));
+Constants make_constants(const Compiled& compiled, const std::vector<Constant>& values, const ImageSet& images,
+                         uint32_t& fault) {
+  Constants constants(compiled.generated.block_size());
+  const ImageSet* address = &images;
+  std::memcpy(constants.bytes.get() + compiled.generated.image_slot, static_cast<void*>(&address), sizeof address);
   for (const ParameterSlot& slot : compiled.slots)
     store_constant(constants.bytes.get() + slot.offset, slot.type, compiled.generated.precision,
                    stored_value(compiled.info.parameters[slot.parameter], values[slot.parameter]));
@@ -179,11 +188,14 @@ public:
   Instantiation instantiate(const std::map<std::string, Constant>& parameters) const override {
     std::vector<Constant> values;
     if (std::string error = parameter_values(parameters, values); !error.empty()) return {nullptr, error};
+    std::string error;
+    const auto images = ImageSet::open(compiled_->info, values, compiled_->opener, error);
+    if (images == nullptr) return {nullptr, error};
     uint32_t fault = 0;
-    Constants constants = make_constants(*compiled_, values, fault);
+    Constants constants = make_constants(*compiled_, values, *images, fault);
     if (fault != 0)
       return {nullptr, describe(compiled_->sites[fault - 1], compiled_->generated.places[fault - 1].code)};
-    return {std::make_shared<CompiledShader>(compiled_, std::move(constants), std::move(values)), ""};
+    return {std::make_shared<CompiledShader>(compiled_, std::move(constants), std::move(values), images), ""};
   }
 
 private:
@@ -283,6 +295,7 @@ Compilation compile(const CheckedShader& shader, const CompileOptions& options) 
   std::string diagnostics = diagnostics_text(shader, options.color_diagnostics);
   if (!shader.ok()) return {nullptr, diagnostics};
   auto compiled = std::make_shared<Compiled>();
+  compiled->opener = options.images;
   CompileTimes& times = compiled->times;
   times.parse = shader.parts().parse_milliseconds;
   times.sema = shader.parts().sema_milliseconds;

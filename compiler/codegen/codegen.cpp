@@ -116,11 +116,11 @@ void emit_module(Generated& generated, const ir::Module& module, const Options& 
   const FunctionAttributes attributes = attributes_for(parts.target, domain);
   const FaultPlaces places(module);
   ModuleEmitter emitter(*parts.module, module, domain, attributes, places);
-  const uint64_t print_slot = emitter.layout.size; // the layout is aligned
+  info.print_slot = emitter.layout.size; // the layout is aligned
+  info.image_slot = emitter.image_slot = info.print_slot + sizeof(void*);
   if (options.prints) {
-    info.print_slot = print_slot;
     emitter.prints = &info.prints;
-    emitter.print_slot = print_slot;
+    emitter.print_slot = info.print_slot;
   }
   for (const ir::Entry& entry : module.entries) {
     std::vector<bool> uniform;
@@ -134,6 +134,7 @@ void emit_module(Generated& generated, const ir::Module& module, const Options& 
   if (module.init != ir::kNone) {
     info.init_symbol = "moonshade_init";
     ModuleEmitter init(*parts.module, module, single, attributes, places);
+    init.image_slot = info.image_slot;
     emit_init(init, info.init_symbol);
   }
   for (const ir::Instruction* place : places.places) {

@@ -5,6 +5,7 @@
 #include "renderer/scene/folders.h"
 #include "renderer/scene/nearest_name.h"
 #include "runtime/frontend.h"
+#include "runtime/images/file_images.h"
 #include "runtime/interpret.h"
 
 #include <filesystem>
@@ -23,7 +24,16 @@ struct ShaderFile {
 
 class RuntimeShaders : public ShaderSource {
 public:
-  explicit RuntimeShaders(const ShaderOptions& options) : options_(options) {}
+  explicit RuntimeShaders(const ShaderOptions& options) : options_(options) {
+    AllowedFolders folders;
+    for (const std::string& folder : options.folders)
+      folders.allow(folder);
+    images_ = [this, open = file_images(folders)](const std::string& file, const std::string& from, bool raw) {
+      OpenedImage opened = open(file, from, raw);
+      if (opened.image != nullptr) images_opened_.push_back(opened.path);
+      return opened;
+    };
+  }
 
   ShaderLoad load(const std::string& file, const std::map<std::string, Constant>& parameters,
                   const std::map<std::string, std::string>& overrides) override;
@@ -32,6 +42,8 @@ private:
   ShaderFile& open(const std::string& file);
 
   ShaderOptions options_;
+  ImageOpener images_;
+  std::vector<std::string> images_opened_; ///< by the shader that is being loaded
   std::map<std::string, ShaderFile> files_;
 };
 
@@ -55,6 +67,7 @@ ShaderFile& RuntimeShaders::open(const std::string& file) {
   compile_options.uniform_inputs = {"time", "frame"};
   compile_options.color_diagnostics = options_.color_diagnostics;
   compile_options.gradients = {height_gradient()};
+  compile_options.images = images_;
   Compilation compiled = compile(*shader.checked, compile_options);
   shader.program = compiled.program;
   if (!shader.program) shader.error = compiled.diagnostics.empty() ? file + ": not compiled" : compiled.diagnostics;
@@ -108,18 +121,19 @@ ShaderLoad RuntimeShaders::load(const std::string& file, const std::map<std::str
   ShaderLoad load;
   if (!shader.error.empty()) return load.error = shader.error, load;
   load.warnings = std::exchange(shader.warnings, "");
-  const SourceSet& sources = shader.checked->sources();
-  for (FileId source = 0; source < sources.size(); ++source)
-    load.files.emplace_back(sources.name(source));
+  load.files = shader.checked->files();
   std::map<std::string, Constant> merged;
   load.error = merge(shader.checked->info(), parameters, overrides, merged, load.unknown);
   if (!load.error.empty()) return load.error = file + ": " + load.error, load;
   // Steps are counted exactly where the shader is compiled; the interpreter's guard against endless loops is enough
   // here.
-  Instantiation instance = options_.backend == Backend::Interp
-                               ? interpret(*shader.checked, merged, {.count_steps = false, .impatient = true})
-                               : shader.program->instantiate(merged);
+  Instantiation instance =
+      options_.backend == Backend::Interp
+          ? interpret(*shader.checked, merged, {.count_steps = false, .impatient = true, .images = images_})
+          : shader.program->instantiate(merged);
   load.shader = instance.shader;
+  load.files.insert(load.files.end(), images_opened_.begin(), images_opened_.end());
+  images_opened_.clear();
   if (!load.shader) load.error = file + ": " + instance.error;
   return load;
 }
