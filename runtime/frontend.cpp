@@ -8,6 +8,7 @@
 #include "compiler/syntax/ast.h"
 #include "runtime/frontend_parts.h"
 #include "runtime/gradients.h"
+#include "runtime/parameters.h"
 #include "runtime/stopwatch.h"
 
 #include <algorithm>
@@ -70,9 +71,22 @@ CompileTimes CheckedShader::times() const {
 ir::Module build_module(const CheckedShader& shader, const CompileOptions& options) {
   ir::Module module = build_printing_module(shader, options);
   ir::remove_prints(module);
+  if (std::string error = optimize_module(module, shader.info(), options); !error.empty())
+    module.problems.push_back(std::move(error));
+  return module;
+}
+
+std::string optimize_module(ir::Module& module, const ShaderInfo& info, const CompileOptions& options) {
+  std::vector<Constant> values;
+  if (options.bake)
+    if (std::string error = parameter_values(info, options.baked, values); !error.empty()) return error;
   // At every level: which products and sums become one operation is part of what f32 means.
   ir::optimize(module, options.precision);
-  return module;
+  if (!options.bake) return {};
+  for (size_t i = 0; i < values.size(); ++i)
+    values[i] = stored_value(info.parameters[i], values[i]);
+  ir::bake_parameters(module, values);
+  return {};
 }
 
 ir::Module build_printing_module(const CheckedShader& shader, const CompileOptions& options) {
@@ -90,6 +104,20 @@ codegen::Options codegen_options(const CompileOptions& options) {
   return {options.precision, options.width, options.optimization, options.cpu, options.target, options.uniform_inputs};
 }
 
+codegen::Options jit_options(const CompileOptions& options) {
+  codegen::Options result = codegen_options(options);
+  using codegen::LibraryCalls;
+  result.library_calls = options.optimization > 2   ? LibraryCalls::None
+                         : options.optimization > 1 ? LibraryCalls::Large
+                                                    : LibraryCalls::All;
+  return result;
+}
+
+void make_quick(codegen::Options& options) {
+  options.optimization = 0;
+  options.library_calls = codegen::LibraryCalls::All;
+}
+
 FaultSite resolve(const SourceSet& sources, const codegen::FaultPlaceInfo& place) {
   if (!place.span.has_place()) return {"", 0, 0, place.message};
   const LineColumn position = sources.position(place.span.file, place.span.begin);
@@ -99,6 +127,7 @@ FaultSite resolve(const SourceSet& sources, const codegen::FaultPlaceInfo& place
 ShaderInfo compiled_info(const ShaderInfo& info, const ir::Module& module, const CompileOptions& options) {
   ShaderInfo compiled = info;
   compiled.entries.clear();
+  if (options.bake) compiled.parameters.clear();
   for (const ir::Entry& entry : module.entries)
     compiled.entries.push_back(entry_info(entry.name, info, options));
   return compiled;
