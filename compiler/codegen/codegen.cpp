@@ -5,6 +5,7 @@
 #include "compiler/codegen/emitter.h"
 #include "compiler/codegen/entry.h"
 #include "compiler/codegen/link.h"
+#include "compiler/codegen/native_calls.h"
 #include "compiler/codegen/pipeline.h"
 #include "compiler/codegen/tables.h"
 #include "compiler/codegen/target.h"
@@ -147,7 +148,9 @@ void emit_module(Generated& generated, const ir::Module& module, const Options& 
   if (std::string complaint = verify(*parts.module); !complaint.empty())
     generated.error = "internal error: " + complaint;
 #endif
-  if (generated.error.empty()) link_library(*parts.module, domain, attributes, generated.error);
+  if (!generated.error.empty()) return;
+  choose_native_calls(*parts.module, domain, parts.target, options.library_calls);
+  link_library(*parts.module, domain, attributes, generated.error);
   if (generated.error.empty()) define_tables(*parts.module, parts.target);
 }
 
