@@ -9,6 +9,7 @@
 #include "runtime/frontend_parts.h"
 #include "runtime/gradients.h"
 #include "runtime/image_set.h"
+#include "runtime/parameters.h"
 #include "runtime/stopwatch.h"
 #include "stdlib/sums.h"
 
@@ -100,9 +101,22 @@ CompileTimes CheckedShader::times() const {
 ir::Module build_module(const CheckedShader& shader, const CompileOptions& options) {
   ir::Module module = build_printing_module(shader, options);
   ir::remove_prints(module);
+  if (std::string error = optimize_module(module, shader.info(), options); !error.empty())
+    module.problems.push_back(std::move(error));
+  return module;
+}
+
+std::string optimize_module(ir::Module& module, const ShaderInfo& info, const CompileOptions& options) {
+  std::vector<Constant> values;
+  if (options.bake)
+    if (std::string error = parameter_values(info, options.baked, values); !error.empty()) return error;
   // At every level: which products and sums become one operation is part of what f32 means.
   ir::optimize(module, options.precision);
-  return module;
+  if (!options.bake) return {};
+  for (size_t i = 0; i < values.size(); ++i)
+    values[i] = stored_value(info.parameters[i], values[i]);
+  ir::bake_parameters(module, values);
+  return {};
 }
 
 ir::Module build_printing_module(const CheckedShader& shader, const CompileOptions& options) {
@@ -120,6 +134,20 @@ codegen::Options codegen_options(const CompileOptions& options) {
   return {options.precision, options.width, options.optimization, options.cpu, options.target, options.uniform_inputs};
 }
 
+codegen::Options jit_options(const CompileOptions& options) {
+  codegen::Options result = codegen_options(options);
+  using codegen::LibraryCalls;
+  result.library_calls = options.optimization > 2   ? LibraryCalls::None
+                         : options.optimization > 1 ? LibraryCalls::Large
+                                                    : LibraryCalls::All;
+  return result;
+}
+
+void make_quick(codegen::Options& options) {
+  options.optimization = 0;
+  options.library_calls = codegen::LibraryCalls::All;
+}
+
 FaultSite resolve(const SourceSet& sources, const codegen::FaultPlaceInfo& place) {
   if (!place.span.has_place()) return {"", 0, 0, place.message};
   const LineColumn position = sources.position(place.span.file, place.span.begin);
@@ -129,6 +157,16 @@ FaultSite resolve(const SourceSet& sources, const codegen::FaultPlaceInfo& place
 ShaderInfo compiled_info(const ShaderInfo& info, const ir::Module& module, const CompileOptions& options) {
   ShaderInfo compiled = info;
   compiled.entries.clear();
+  if (options.bake) {
+    for (ImageInfo& image : compiled.images) {
+      if (!image.parameter) continue;
+      const ParameterInfo& parameter = info.parameters[*image.parameter];
+      const auto given = options.baked.find(parameter.name);
+      image.file = std::get<std::string>(given != options.baked.end() ? given->second : parameter.default_value);
+      image.parameter.reset();
+    }
+    compiled.parameters.clear();
+  }
   for (const ir::Entry& entry : module.entries)
     compiled.entries.push_back(entry_info(entry.name, info, options));
   return compiled;

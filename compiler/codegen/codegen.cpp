@@ -5,9 +5,11 @@
 #include "compiler/codegen/emitter.h"
 #include "compiler/codegen/entry.h"
 #include "compiler/codegen/link.h"
+#include "compiler/codegen/native_calls.h"
 #include "compiler/codegen/pipeline.h"
 #include "compiler/codegen/tables.h"
 #include "compiler/codegen/target.h"
+#include "compiler/codegen/width.h"
 
 #include <llvm/ADT/SmallString.h>
 #include <llvm/Analysis/LoopInfo.h>
@@ -146,7 +148,9 @@ void emit_module(Generated& generated, const ir::Module& module, const Options& 
   if (std::string complaint = verify(*parts.module); !complaint.empty())
     generated.error = "internal error: " + complaint;
 #endif
-  if (generated.error.empty()) link_library(*parts.module, domain, attributes, generated.error);
+  if (!generated.error.empty()) return;
+  choose_native_calls(*parts.module, domain, parts.target, options.library_calls);
+  link_library(*parts.module, domain, attributes, generated.error);
   if (generated.error.empty()) define_tables(*parts.module, parts.target);
 }
 
@@ -201,7 +205,7 @@ Generated generate(const ir::Module& module, const Options& options) {
     return generated;
   }
   generated.info.precision = options.precision;
-  generated.info.width = options.width != 0 ? options.width : best_width(parts.target, options.precision);
+  generated.info.width = choose_width(module, parts.target, options).width;
   parts.context.setDiagnosticHandlerCallBack(listen, &parts);
   parts.module = std::make_unique<llvm::Module>("shader", parts.context);
   parts.module->setTargetTriple(parts.target.machine->getTargetTriple().str());

@@ -58,7 +58,7 @@ const FunctionFacts& ModuleEmitter::facts(ir::FunctionId function, const ir::Sig
   auto& facts = facts_[{function, signature}];
   if (facts == nullptr) {
     const ir::Uniformity& uniformity = ir::analyse_uniformity(module, function, signature, uniformity_);
-    facts = std::make_unique<FunctionFacts>(function_facts(module.functions[function], uniformity));
+    facts = std::make_unique<FunctionFacts>(function_facts(module.functions[function], uniformity, module.step_limit));
   }
   return *facts;
 }
@@ -128,9 +128,10 @@ void FunctionEmitter::enter_homes(const ir::Block& block) {
     if (activation_->facts->homes[id] != &block) continue;
     const ir::Variable& variable = activation_->function->variables[id];
     Slot& slot = activation_->variables[id];
-    slot =
-        make_slot(variable.type, variable.count, activation_->facts->uniformity->variable_varying[id], variable.name);
+    slot = make_slot(variable.type, variable.count, activation_->facts->uniformity->variable_varying[id], variable.name,
+                     activation_->facts->narrow[id]);
     slot.home = masks.depth();
+    slot.last_loop = activation_->facts->last_loops[id];
     zero_slot(slot);
   }
 }

@@ -60,6 +60,8 @@ struct Slot {
   bool varying = false;
   Masks::Depth home = 0;
   llvm::SmallVector<llvm::Value*, 4> parts;
+  ir::LabelId last_loop = ir::kNone; ///< FunctionFacts::last_loops
+  bool narrow = false;               ///< lanes of 32 bits for 64 (FunctionFacts::narrow)
 };
 
 /// Memory for the faults of a block of points; null pointers where the program cannot fault.
@@ -163,7 +165,7 @@ private:
   void set(ir::ValueId id, Lanes lanes) { activation_->values[id] = std::move(lanes); }
 
   // emit_memory.cpp
-  Slot make_slot(ValueType type, uint32_t count, bool varying, const std::string& name);
+  Slot make_slot(ValueType type, uint32_t count, bool varying, const std::string& name, bool narrow = false);
   llvm::Type* element_type(const Slot& slot) const;
   Lanes load_slot(const Slot& slot);
   void store_slot(const Slot& slot, const Lanes& lanes);

@@ -18,7 +18,8 @@ namespace {
 
 struct ShaderFile {
   std::unique_ptr<CheckedShader> checked;
-  std::shared_ptr<const Program> program;
+  /// By the values that are baked into it; without them there is one.
+  std::map<std::map<std::string, Constant>, std::shared_ptr<const Program>> programs;
   std::string error, warnings;
 };
 
@@ -40,6 +41,7 @@ public:
 
 private:
   ShaderFile& open(const std::string& file);
+  std::shared_ptr<const Program> program(ShaderFile& shader, const std::map<std::string, Constant>& baked);
 
   ShaderOptions options_;
   ImageOpener images_;
@@ -60,7 +62,15 @@ ShaderFile& RuntimeShaders::open(const std::string& file) {
   print_text(shader.checked->diagnostics(), shader.checked->sources(), messages, options_.color_diagnostics);
   if (!shader.checked->ok()) return shader.error = messages.str(), shader;
   shader.warnings = messages.str();
-  if (options_.backend == Backend::Interp) return shader;
+  if (options_.backend == Backend::Jit && !options_.bake) program(shader, {});
+  return shader;
+}
+
+/// Null with the shader's error set, where it cannot be compiled.
+std::shared_ptr<const Program> RuntimeShaders::program(ShaderFile& shader,
+                                                       const std::map<std::string, Constant>& baked) {
+  const auto [found, is_new] = shader.programs.try_emplace(baked);
+  if (!is_new) return found->second;
   CompileOptions compile_options;
   compile_options.precision = options_.precision;
   compile_options.width = options_.width;
@@ -68,10 +78,14 @@ ShaderFile& RuntimeShaders::open(const std::string& file) {
   compile_options.color_diagnostics = options_.color_diagnostics;
   compile_options.gradients = {height_gradient()};
   compile_options.images = images_;
+  compile_options.bake = options_.bake;
+  compile_options.baked = baked;
+  compile_options.cache = options_.cache;
+  compile_options.background = options_.background;
   Compilation compiled = compile(*shader.checked, compile_options);
-  shader.program = compiled.program;
-  if (!shader.program) shader.error = compiled.diagnostics.empty() ? file + ": not compiled" : compiled.diagnostics;
-  return shader;
+  const std::string file(shader.checked->sources().name(FileId{0}));
+  if (!compiled.program) shader.error = compiled.diagnostics.empty() ? file + ": not compiled" : compiled.diagnostics;
+  return found->second = compiled.program;
 }
 
 /// Every given parameter as a value of its type, or an error that names it; those that the shader lacks go to
@@ -127,10 +141,13 @@ ShaderLoad RuntimeShaders::load(const std::string& file, const std::map<std::str
   if (!load.error.empty()) return load.error = file + ": " + load.error, load;
   // Steps are counted exactly where the shader is compiled; the interpreter's guard against endless loops is enough
   // here.
-  Instantiation instance =
-      options_.backend == Backend::Interp
-          ? interpret(*shader.checked, merged, {.count_steps = false, .impatient = true, .images = images_})
-          : shader.program->instantiate(merged);
+  Instantiation instance;
+  if (options_.backend == Backend::Interp)
+    instance = interpret(*shader.checked, merged, {.count_steps = false, .impatient = true, .images = images_});
+  else if (const auto compiled = program(shader, options_.bake ? merged : std::map<std::string, Constant>{}))
+    instance = compiled->instantiate(options_.bake ? std::map<std::string, Constant>{} : merged);
+  else
+    return load.error = shader.error, load;
   load.shader = instance.shader;
   load.files.insert(load.files.end(), images_opened_.begin(), images_opened_.end());
   images_opened_.clear();

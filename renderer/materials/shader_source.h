@@ -36,9 +36,13 @@ struct ShaderOptions {
   unsigned width = 0; ///< 0: the best
   bool color_diagnostics = false;
   std::vector<std::string> folders = {}; ///< in which, and below, the shaders' images lie
+  /// As in CompileOptions; none of them changes a pixel.
+  bool bake = false;
+  std::shared_ptr<ObjectCache> cache = {};
+  std::shared_ptr<BackgroundCompiler> background = {};
 };
 
-/// By the runtime. Each file is read, checked and compiled once.
+/// By the runtime. Each file is read and checked once, and compiled once, or with `bake` once for each set of values.
 std::unique_ptr<ShaderSource> runtime_shaders(const ShaderOptions& options);
 
 } // namespace moonshade::renderer

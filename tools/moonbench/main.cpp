@@ -1,4 +1,5 @@
 // moonbench: for each shader and entry, stock Lua against compiled code over the same points.
+#include "tools/moonbench/compile_times.h"
 #include "tools/moonbench/measure.h"
 #include "tools/moonbench/report.h"
 #include "tools/support/exit_status.h"
@@ -60,6 +61,7 @@ int report_rows(const Options& options, const std::vector<Row>& rows) {
 }
 
 int work(const Options& options) {
+  if (options.compile_times) return report_compile_times(options);
   std::vector<Row> rows;
   int status = kDone;
   for (const std::string& file : options.files)

@@ -24,13 +24,6 @@ constexpr double kShortest = 0.02;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-/// Seconds that this thread has computed: what other programs take from it does not count.
-double thread_seconds() {
-  timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return double(time.tv_sec) + double(time.tv_nsec) * 1e-9;
-}
-
 /// One mode of one entry.
 struct Contestant {
   Row row;
@@ -166,6 +159,12 @@ void compare(const Contestant& lua, Contestant& other, Precision precision) {
 }
 
 } // namespace
+
+double thread_seconds() {
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return double(time.tv_sec) + double(time.tv_nsec) * 1e-9;
+}
 
 Measurement measure(const CheckedShader& shader, size_t entry_index, const Options& options) {
   Measurement result;

@@ -20,6 +20,7 @@ struct Options {
   std::string plot; ///< SVG file; empty: none
   bool json = false;
   ImageOpener images; ///< of the file at work
+  bool compile_times = false;
 };
 
 struct ParsedOptions {

@@ -87,6 +87,8 @@ void print_times(const std::string& file, const CompileTimes& times) {
   const auto print = [&](const char* stage, double milliseconds) {
     if (milliseconds > 0) std::fprintf(stderr, "%s: %s %.3f ms\n", file.c_str(), stage, milliseconds);
   };
+  if (times.cached || times.cache > 0)
+    std::fprintf(stderr, "%s: cache %.3f ms (%s)\n", file.c_str(), times.cache, times.cached ? "hit" : "miss");
   print("parse", times.parse);
   print("sema", times.sema);
   print("ir", times.ir);

@@ -2,6 +2,7 @@
 #include "runtime/interpret.h"
 #include "tools/shaderc/actions.h"
 #include "tools/shaderc/check.h"
+#include "tools/shaderc/parameters.h"
 #include "tools/support/csv.h"
 #include "tools/support/exit_status.h"
 #include "tools/support/images.h"
@@ -11,6 +12,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <iostream>
+#include <utility>
 
 namespace moonshade::shaderc {
 
@@ -28,19 +30,6 @@ int machine_error(const std::string& message) {
   return kMachineAtFault;
 }
 
-std::string quoted_list(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names)
-    text += (text.empty() ? "'" : ", '") + name + "'";
-  return text.empty() ? "none" : text;
-}
-
-template <class Named> std::vector<std::string> names_of(const std::vector<Named>& things) {
-  std::vector<std::string> names(things.size());
-  std::transform(things.begin(), things.end(), names.begin(), [](const Named& thing) { return thing.name; });
-  return names;
-}
-
 // ---- the shader ----------------------------------------------------------------------------------------------------
 
 /// The entry that the call means: the one it names, or the only one.
@@ -56,21 +45,6 @@ Ending find_entry(const ShaderInfo& info, const Options& options, size_t& index)
   if (found == names.end())
     return call_error("the shader has no entry '" + options.compile.entries[0] + "'; there are " + quoted_list(names));
   index = size_t(found - names.begin());
-  return std::nullopt;
-}
-
-Ending read_parameters(const ShaderInfo& info, const Options& options, std::map<std::string, Constant>& parameters) {
-  for (const std::string& definition : options.definitions) {
-    const Assignment assignment = split_assignment(definition);
-    const auto parameter = std::find_if(info.parameters.begin(), info.parameters.end(),
-                                        [&](const ParameterInfo& p) { return p.name == assignment.name; });
-    if (parameter == info.parameters.end())
-      return call_error("-D: the shader has no parameter '" + std::string(assignment.name) + "'; there are " +
-                        quoted_list(names_of(info.parameters)));
-    CheckedConstant checked = parse_override(*parameter, assignment.value);
-    if (!checked.error.empty()) return call_error("-D: " + checked.error);
-    parameters[parameter->name] = std::move(checked.value);
-  }
   return std::nullopt;
 }
 
@@ -95,6 +69,7 @@ Ending instantiate(const CheckedShader& checked, const Options& options, std::sh
   } else {
     CompileOptions compile_options = options.compile;
     compile_options.images = images;
+    if (options.compile.bake) compile_options.baked = std::exchange(parameters, {});
     const Compilation compilation = compile(checked, compile_options);
     if (!compilation.program) return machine_error("the checked shader cannot be compiled\n" + compilation.diagnostics);
     if (options.time_report) print_times(options.files[0], compilation.program->times());
