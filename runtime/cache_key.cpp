@@ -92,9 +92,10 @@ std::optional<CacheKey> cache_key(const SourceClosure& sources, const CompileOpt
   hasher.add(codegen::describe_target(options.cpu, options.target));
   // Every option is named here: one that is added does not compile until it is thought of.
   const auto& [precision, width, modules, optimization, cpu, target, entries, uniform_inputs, step_limit,
-               color_diagnostics, gradients, bake, baked, cache, background] = options;
+               color_diagnostics, gradients, images, bake, baked, cache, background] = options;
   static_cast<void>(modules), static_cast<void>(cpu), static_cast<void>(target); // in the sources, in the target
   static_cast<void>(cache), static_cast<void>(background);                       // not of the optimised code
+  static_cast<void>(images);                                                     // data of an instance
   hasher.add(precision);
   hasher.add(width);
   hasher.add(optimization);
