@@ -47,7 +47,7 @@ SourceClosure closure_of(const CheckedShader& shader) {
   SourceClosure closure{std::string(sources.name(FileId{0})), std::string(sources.text(FileId{0})), {}};
   const auto& modules = shader.parts().modules;
   for (size_t i = 0; i < modules.size(); ++i) {
-    const auto file = static_cast<FileId>(i + 1);
+    const FileId file = modules[i].chunk->file;
     closure.modules[modules[i].name] = {std::string(sources.name(file)), std::string(sources.text(file)), ""};
   }
   return closure;
@@ -138,6 +138,7 @@ Compilation compile_anew(const CheckedShader& shader, const SourceClosure& sourc
   std::string diagnostics = diagnostics_text(shader, options.color_diagnostics);
   if (!shader.ok()) return {nullptr, diagnostics};
   auto compiled = std::make_shared<Compiled>();
+  compiled->opener = options.images;
   CompileTimes& times = compiled->times;
   times.parse = shader.parts().parse_milliseconds;
   times.sema = shader.parts().sema_milliseconds;
@@ -190,7 +191,10 @@ Compilation find_cached(const Cached& cached, const SourceClosure& sources, cons
   if (options.cache == nullptr) return {};
   std::string diagnostics;
   std::shared_ptr<Compiled> compiled = cached.find(diagnostics);
-  if (compiled != nullptr) keep_sources(*compiled, sources, options);
+  if (compiled != nullptr) {
+    compiled->opener = options.images;
+    keep_sources(*compiled, sources, options);
+  }
   milliseconds = watch.lap();
   if (compiled == nullptr) return {};
   compiled->times = before;

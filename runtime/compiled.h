@@ -44,6 +44,7 @@ struct Compiled {
   std::vector<FaultSite> sites;
   CompileTimes times;
   bool is_quick = false; ///< the first code is
+  ImageOpener opener;    ///< for the images of instances
 
   const Code& code() const { return *current.load(std::memory_order_acquire); }
   void set_code(std::unique_ptr<const Code> first) {

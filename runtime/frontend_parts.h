@@ -20,7 +20,8 @@ struct CheckedShader::Parts {
     std::string name;
     syntax::Chunk* chunk;
   };
-  std::vector<Module> modules; ///< that the shader requires, in the order of their loading
+  std::vector<Module> modules;      ///< that the shader requires, in the order of their loading
+  syntax::Chunk* library = nullptr; ///< the library's own Lua, where the shader calls some of it
   sema::Program program;
   double parse_milliseconds = 0, sema_milliseconds = 0;
 };

@@ -3,6 +3,7 @@
 #include "runtime/jit.h"
 
 #include "compiler/codegen/batch.h"
+#include "compiler/codegen/images.h"
 #include "compiler/codegen/native_calls.h"
 #include "compiler/codegen/print.h"
 #include "stdlib/library.h"
@@ -43,6 +44,8 @@ std::map<llvm::StringRef, orc::ExecutorAddr> external_functions() {
   for (const LibraryExternal& external : library_externals())
     define(external.name, static_cast<char*>(external.address));
   define("moonshade_block_faulted", &codegen::moonshade_block_faulted);
+  define("moonshade_texture_f32", &codegen::moonshade_texture_f32);
+  define("moonshade_texture_f64", &codegen::moonshade_texture_f64);
   define("moonshade_print", &codegen::moonshade_print);
   define("memcpy", &std::memcpy);
   define("memset", &std::memset);

@@ -2,6 +2,7 @@
 #include "compiler/codegen/print.h"
 #include "runtime/compiled.h"
 #include "runtime/floating_point.h"
+#include "runtime/image_set.h"
 #include "runtime/parameters.h"
 #include "runtime/print_text.h"
 
@@ -25,12 +26,15 @@ struct Constants {
 };
 
 /// The constants of an instance, with the parameters' values and what the top level gives; or its fault.
-Constants make_constants(const Compiled& compiled, const std::vector<Constant>& values, uint32_t& fault);
+Constants make_constants(const Compiled& compiled, const std::vector<Constant>& values, const ImageSet& images,
+                         uint32_t& fault);
 
 class CompiledShader final : public Shader {
 public:
-  CompiledShader(std::shared_ptr<const Compiled> compiled, Constants constants, std::vector<Constant> parameters)
-      : compiled_(std::move(compiled)), constants_(std::move(constants)), parameters_(std::move(parameters)) {}
+  CompiledShader(std::shared_ptr<const Compiled> compiled, Constants constants, std::vector<Constant> parameters,
+                 std::shared_ptr<const ImageSet> images)
+      : compiled_(std::move(compiled)), constants_(std::move(constants)), parameters_(std::move(parameters)),
+        images_(std::move(images)) {}
 
   const ShaderInfo& info() const override { return compiled_->info; }
   Precision precision() const override { return compiled_->code().info.precision; }
@@ -67,7 +71,7 @@ public:
     for (uint64_t& result : results)
       outputs.push_back(&result);
     uint32_t fault = 0;
-    const Constants constants = make_constants(*printing, parameters_, fault);
+    const Constants constants = make_constants(*printing, parameters_, *images_, fault);
     const PrintContext context{&code, &sink};
     const PrintContext* address = &context;
     std::memcpy(constants.bytes.get() + code.info.print_slot, static_cast<void*>(&address), sizeof address);
@@ -81,6 +85,7 @@ private:
   std::shared_ptr<const Compiled> compiled_;
   Constants constants_;
   std::vector<Constant> parameters_; ///< their values
+  std::shared_ptr<const ImageSet> images_;
 };
 
 void store_number(std::byte* target, Precision precision, double value) {
@@ -109,9 +114,12 @@ void store_constant(std::byte* target, ValueType type, Precision precision, cons
   }
 }
 
-Constants make_constants(const Compiled& compiled, const std::vector<Constant>& values, uint32_t& fault) {
+Constants make_constants(const Compiled& compiled, const std::vector<Constant>& values, const ImageSet& images,
+                         uint32_t& fault) {
   const Code& code = compiled.code();
-  Constants constants(code.info.constants_size + sizeof(PrintContext*));
+  Constants constants(code.info.block_size());
+  const ImageSet* address = &images;
+  std::memcpy(constants.bytes.get() + code.info.image_slot, static_cast<void*>(&address), sizeof address);
   for (const ParameterSlot& slot : compiled.slots)
     store_constant(constants.bytes.get() + slot.offset, slot.type, code.info.precision,
                    stored_value(compiled.info.parameters[slot.parameter], values[slot.parameter]));
@@ -140,11 +148,14 @@ public:
     std::vector<Constant> values;
     if (std::string error = parameter_values(compiled_->info, parameters, values); !error.empty())
       return {nullptr, error};
+    std::string error;
+    const auto images = ImageSet::open(compiled_->info, values, compiled_->opener, error);
+    if (images == nullptr) return {nullptr, error};
     uint32_t fault = 0;
-    Constants constants = make_constants(*compiled_, values, fault);
+    Constants constants = make_constants(*compiled_, values, *images, fault);
     if (fault != 0)
       return {nullptr, describe(compiled_->sites[fault - 1], compiled_->code().info.places[fault - 1].code)};
-    return {std::make_shared<CompiledShader>(compiled_, std::move(constants), std::move(values)), ""};
+    return {std::make_shared<CompiledShader>(compiled_, std::move(constants), std::move(values), images), ""};
   }
 
 private:

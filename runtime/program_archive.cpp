@@ -25,6 +25,10 @@ template <class A> void fields(A& archive, ParameterInfo& value) {
   auto& [name, span, type, default_value, min, max, step, doc, label, choices, compared] = value;
   archive(name, span, type, default_value, min, max, step, doc, label, choices, compared);
 }
+template <class A> void fields(A& archive, ImageInfo& value) {
+  auto& [file, parameter, raw, span, from, line, column] = value;
+  archive(file, parameter, raw, span, from, line, column);
+}
 template <class A> void fields(A& archive, ShaderInfo& value) {
   auto& [entries, parameters, modules, images] = value;
   archive(entries, parameters, modules, images);
@@ -61,8 +65,9 @@ template <class A> void fields(A& archive, PrintPlaceInfo& value) {
   archive(text, types);
 }
 template <class A> void fields(A& archive, CodeInfo& value) {
-  auto& [precision, width, entries, init_symbol, global_offsets, constants_size, places, prints, print_slot] = value;
-  archive(precision, width, entries, init_symbol, global_offsets, constants_size, places, prints, print_slot);
+  auto& [precision, width, entries, init_symbol, global_offsets, constants_size, places, prints, print_slot, image_slot] =
+      value;
+  archive(precision, width, entries, init_symbol, global_offsets, constants_size, places, prints, print_slot, image_slot);
 }
 
 } // namespace codegen
@@ -84,6 +89,14 @@ bool fits_together(const ArchivedProgram& program) {
       for (const codegen::Component& component : *components)
         if (component.size > sizeof(uint64_t)) return false;
   }
+  for (const ImageInfo& image : program.info.images) {
+    if (!image.parameter) continue;
+    if (*image.parameter >= program.info.parameters.size()) return false;
+    const Constant& file = program.info.parameters[*image.parameter].default_value;
+    if (!std::holds_alternative<std::string>(file)) return false;
+  }
+  if (code.print_slot + sizeof(void*) > code.block_size() || code.image_slot + sizeof(void*) > code.block_size())
+    return false;
   for (const ParameterSlot& slot : program.slots)
     if (slot.parameter >= program.info.parameters.size() || slot.offset >= code.constants_size) return false;
   return code.width != 0 && code.width <= kWidths.back() && code.constants_size <= uint64_t{1} << 32;

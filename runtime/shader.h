@@ -12,6 +12,7 @@
 
 #include "compiler/base/fault.h"
 #include "compiler/sema/shader_info.h"
+#include "runtime/image.h"
 #include "stdlib/library.h"
 
 #include <cstddef>
@@ -111,6 +112,8 @@ struct CompileOptions {
   /// Entries to add; those of functions that the shader does not have are left out, and of functions that differentiate
   /// as often as there are derivatives. (Compiled code only.)
   std::vector<Gradient> gradients;
+  /// Opens the images that the shader looks up, for each of its instances; empty: a shader with images has none.
+  ImageOpener images;
   /// Compile the parameters as constants: these values, and defaults where none is given. The program has no parameters
   /// then, and gives what it would with these.
   bool bake = false;

@@ -62,6 +62,8 @@ struct CodeInfo {
   std::vector<FaultPlaceInfo> places; ///< by fault site
   std::vector<PrintPlaceInfo> prints; ///< where prints are emitted
   uint64_t print_slot = 0;            ///< where the sink's address lies, behind constants_size bytes of constants
+  uint64_t image_slot = 0;            ///< and behind it that of the images (images.h)
+  uint64_t block_size() const { return constants_size + 2 * sizeof(void*); } ///< with these two
 };
 
 struct Times {

@@ -33,7 +33,7 @@ Target make_target(const TargetOptions& options);
 /// Whether code for a processor of this name (NativeExports::processor) runs on the target.
 bool runs_code_of(const Target& target, std::string_view processor);
 
-/// The lane count that suits the target best: one machine vector of the precision's numbers.
+/// The lane count of one machine vector of the precision's numbers. (What code is made for is choose_width's.)
 unsigned best_width(const Target& target, Precision precision);
 /// The same for this machine.
 unsigned native_width(Precision precision);

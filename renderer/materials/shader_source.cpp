@@ -5,6 +5,7 @@
 #include "renderer/scene/folders.h"
 #include "renderer/scene/nearest_name.h"
 #include "runtime/frontend.h"
+#include "runtime/images/file_images.h"
 #include "runtime/interpret.h"
 
 #include <filesystem>
@@ -24,7 +25,16 @@ struct ShaderFile {
 
 class RuntimeShaders : public ShaderSource {
 public:
-  explicit RuntimeShaders(const ShaderOptions& options) : options_(options) {}
+  explicit RuntimeShaders(const ShaderOptions& options) : options_(options) {
+    AllowedFolders folders;
+    for (const std::string& folder : options.folders)
+      folders.allow(folder);
+    images_ = [this, open = file_images(folders)](const std::string& file, const std::string& from, bool raw) {
+      OpenedImage opened = open(file, from, raw);
+      if (opened.image != nullptr) images_opened_.push_back(opened.path);
+      return opened;
+    };
+  }
 
   ShaderLoad load(const std::string& file, const std::map<std::string, Constant>& parameters,
                   const std::map<std::string, std::string>& overrides) override;
@@ -34,6 +44,8 @@ private:
   std::shared_ptr<const Program> program(ShaderFile& shader, const std::map<std::string, Constant>& baked);
 
   ShaderOptions options_;
+  ImageOpener images_;
+  std::vector<std::string> images_opened_; ///< by the shader that is being loaded
   std::map<std::string, ShaderFile> files_;
 };
 
@@ -65,6 +77,7 @@ std::shared_ptr<const Program> RuntimeShaders::program(ShaderFile& shader,
   compile_options.uniform_inputs = {"time", "frame"};
   compile_options.color_diagnostics = options_.color_diagnostics;
   compile_options.gradients = {height_gradient()};
+  compile_options.images = images_;
   compile_options.bake = options_.bake;
   compile_options.baked = baked;
   compile_options.cache = options_.cache;
@@ -122,9 +135,7 @@ ShaderLoad RuntimeShaders::load(const std::string& file, const std::map<std::str
   ShaderLoad load;
   if (!shader.error.empty()) return load.error = shader.error, load;
   load.warnings = std::exchange(shader.warnings, "");
-  const SourceSet& sources = shader.checked->sources();
-  for (FileId source = 0; source < sources.size(); ++source)
-    load.files.emplace_back(sources.name(source));
+  load.files = shader.checked->files();
   std::map<std::string, Constant> merged;
   load.error = merge(shader.checked->info(), parameters, overrides, merged, load.unknown);
   if (!load.error.empty()) return load.error = file + ": " + load.error, load;
@@ -132,12 +143,14 @@ ShaderLoad RuntimeShaders::load(const std::string& file, const std::map<std::str
   // here.
   Instantiation instance;
   if (options_.backend == Backend::Interp)
-    instance = interpret(*shader.checked, merged, {.count_steps = false, .impatient = true});
+    instance = interpret(*shader.checked, merged, {.count_steps = false, .impatient = true, .images = images_});
   else if (const auto compiled = program(shader, options_.bake ? merged : std::map<std::string, Constant>{}))
     instance = compiled->instantiate(options_.bake ? std::map<std::string, Constant>{} : merged);
   else
     return load.error = shader.error, load;
   load.shader = instance.shader;
+  load.files.insert(load.files.end(), images_opened_.begin(), images_opened_.end());
+  images_opened_.clear();
   if (!load.shader) load.error = file + ": " + instance.error;
   return load;
 }

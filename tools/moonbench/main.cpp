@@ -4,6 +4,7 @@
 #include "tools/moonbench/report.h"
 #include "tools/support/exit_status.h"
 #include "tools/support/files.h"
+#include "tools/support/images.h"
 #include "tools/support/interrupt.h"
 
 #include <algorithm>
@@ -23,7 +24,8 @@ bool wanted(const Options& options, const std::string& entry) {
 }
 
 /// Adds the rows of one file's entries; gives the exit status.
-int measure_file(const std::string& path, const Options& options, std::vector<Row>& rows) {
+int measure_file(const std::string& path, Options options, std::vector<Row>& rows) {
+  options.images = images_of(path);
   FileText file = read_file(path);
   if (!file.error.empty()) return fail(kInputAtFault, "cannot read '" + path + "': " + file.error);
   const CheckedShader shader(path, std::move(file.text), {}, tools::modules_of(path));

@@ -5,6 +5,7 @@
 #include "renderer/film/image_file.h"
 #include "renderer/scene/nearest_name.h"
 #include "renderer/scene/scene_reference.h"
+#include "runtime/allowed_folders.h"
 #include "tools/support/arguments.h"
 #include "tools/support/cache_options.h"
 #include "tools/support/exit_status.h"
@@ -106,6 +107,7 @@ void size_and_crop(const Given& given, Options& options) {
 void shader_options(const Given& given, Options& options) {
   static constexpr std::string_view kBackends[] = {"jit", "interp"};
   static constexpr std::string_view kPrecisions[] = {"f32", "f64"};
+  options.shaders.folders = {folder_of(options.scene)};
   if (!given.backend.empty())
     options.shaders.backend = renderer::Backend(one_of(given.backend, "--backend", kBackends));
   if (!given.precision.empty())

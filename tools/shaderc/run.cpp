@@ -5,6 +5,7 @@
 #include "tools/shaderc/parameters.h"
 #include "tools/support/csv.h"
 #include "tools/support/exit_status.h"
+#include "tools/support/images.h"
 #include "tools/support/points.h"
 #include "tools/support/values.h"
 
@@ -59,12 +60,15 @@ std::string as_diagnostic(const std::string& error, const CheckedShader& checked
 Ending instantiate(const CheckedShader& checked, const Options& options, std::shared_ptr<const Shader>& shader) {
   std::map<std::string, Constant> parameters;
   if (const Ending ending = read_parameters(checked.info(), options, parameters)) return ending;
+  const ImageOpener images = tools::images_of(options.files[0], options.module_path);
   Instantiation instance;
   if (options.interpret) {
     if (options.time_report) print_times(options.files[0], checked.times());
-    instance = interpret(checked, parameters, {.count_steps = true, .step_limit = options.compile.step_limit});
+    instance = interpret(checked, parameters,
+                         {.count_steps = true, .step_limit = options.compile.step_limit, .images = images});
   } else {
     CompileOptions compile_options = options.compile;
+    compile_options.images = images;
     if (options.compile.bake) compile_options.baked = std::exchange(parameters, {});
     const Compilation compilation = compile(checked, compile_options);
     if (!compilation.program) return machine_error("the checked shader cannot be compiled\n" + compilation.diagnostics);
