@@ -179,7 +179,7 @@ Compilation compile_anew(const CheckedShader& shader, const SourceClosure& sourc
                       });
   } else {
     cached.store(*compiled, info, diagnostics, object);
-    times.cache += watch.lap();
+    if (options.cache != nullptr) times.cache += watch.lap();
   }
   times.total = times.parse + times.sema + times.cache + times.ir + times.emit + times.optimize + times.codegen;
   return {make_program(std::move(compiled)), std::move(diagnostics)};
@@ -188,6 +188,7 @@ Compilation compile_anew(const CheckedShader& shader, const SourceClosure& sourc
 /// The program from the cache; null where that has none. `milliseconds`: how long it took to see.
 Compilation find_cached(const Cached& cached, const SourceClosure& sources, const CompileOptions& options,
                         const CompileTimes& before, Stopwatch& watch, double& milliseconds) {
+  if (options.cache == nullptr) return {};
   std::string diagnostics;
   std::shared_ptr<Compiled> compiled = cached.find(diagnostics);
   if (compiled != nullptr) {

@@ -309,7 +309,7 @@ TEST_F(ObjectCacheTest, CompilesWhatIsDamaged) {
     const Compilation again = compile("rich.lua", kRichShader, o);
     EXPECT_FALSE(again.program->times().cached);
     EXPECT_EQ(shade_all(*instantiated(again)), expected);
-    EXPECT_EQ(read_bytes(path).size(), whole.size()) << "stored anew";
+    EXPECT_TRUE(compile("rich.lua", kRichShader, o).program->times().cached) << "stored anew";
   }
   EXPECT_EQ(cache_counts(*o.cache).rejected, 8u);
 }

@@ -20,17 +20,38 @@ constexpr size_t kSmall = 40;
 /// and has so much to compute that calls hardly count.
 constexpr size_t kBudget = 250;
 
-/// Machine code for this export that runs here.
-const NativeExport* find_code(const llvm::Function& function, const Domain& domain, const Target& target) {
-  const llvm::StringRef name = function.getName();
-  if (!function.isDeclaration() || !name.starts_with("ms_") || export_order(name) == 2) return nullptr;
-  for (const unsigned width : {domain.width, 1u}) {
-    if (!name.ends_with("_w" + std::to_string(width))) continue;
-    const NativeExports exports = native_exports(domain.precision, width, is_derivative_export(name));
-    return runs_code_of(target, exports.processor) ? exports.find(name) : nullptr;
+/// The domain's machine code that runs on the target.
+class CodeThatRuns {
+public:
+  CodeThatRuns(const Domain& domain, const Target& target) {
+    for (const unsigned width : {domain.width, 1u})
+      for (const bool derivatives : {false, true}) {
+        const NativeExports exports = native_exports(domain.precision, width, derivatives);
+        if (exports.exports.empty()) continue;
+        if (tables_.empty() || tables_.back().exports.processor != exports.processor)
+          runs_ = runs_code_of(target, exports.processor);
+        if (runs_) tables_.push_back({"_w" + std::to_string(width), derivatives, exports});
+      }
   }
-  return nullptr;
-}
+
+  const NativeExport* find(const llvm::Function& function) const {
+    const llvm::StringRef name = function.getName();
+    if (!function.isDeclaration() || !name.starts_with("ms_") || export_order(name) == 2) return nullptr;
+    for (const Table& table : tables_)
+      if (name.ends_with(table.ending) && is_derivative_export(name) == table.derivatives)
+        return table.exports.find(name);
+    return nullptr;
+  }
+
+private:
+  struct Table {
+    std::string ending;
+    bool derivatives;
+    NativeExports exports;
+  };
+  std::vector<Table> tables_;
+  bool runs_ = false;
+};
 
 /// What the library promises of its functions (library.h).
 void call(llvm::Function& function) {
@@ -46,11 +67,11 @@ void call(llvm::Function& function) {
 
 void choose_native_calls(llvm::Module& module, const Domain& domain, const Target& target, LibraryCalls calls) {
   if (calls == LibraryCalls::None || !target.native) return;
+  const CodeThatRuns native(domain, target);
   std::vector<llvm::Function*> large;
   size_t sum = 0;
   for (llvm::Function& function : module)
-    if (const NativeExport* code = find_code(function, domain, target);
-        code != nullptr && code->instructions > kSmall) {
+    if (const NativeExport* code = native.find(function); code != nullptr && code->instructions > kSmall) {
       large.push_back(&function);
       sum += code->instructions;
     }

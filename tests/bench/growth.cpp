@@ -101,7 +101,8 @@ Source modules(int lines) {
   for (int m = 0; m < count; ++m) {
     std::string module = "return {\n";
     for (int i = 0; i < 99; ++i)
-      module += "  f" + number(i) + " = function(x)\n    local y = x * " + number(i + m) + "\n    return y - x\n  end,\n";
+      module +=
+          "  f" + number(i) + " = function(x)\n    local y = x * " + number(i + m) + "\n    return y - x\n  end,\n";
     source.modules["m" + number(m)] = module + "}\n";
     source.text += "local m" + number(m) + " = require \"m" + number(m) + "\"\n";
     for (int i = 0; i < 99; ++i)

@@ -66,6 +66,12 @@ std::string median_of(const std::string& path, const std::string& text, const Co
   }
   std::ranges::sort(timings, {}, &Timing::milliseconds);
   timing = timings[timings.size() / 2];
+  // The stages are told by the clock, to which other programs add: the least of each.
+  for (double CompileTimes::* stage :
+       {&CompileTimes::parse, &CompileTimes::sema, &CompileTimes::ir, &CompileTimes::emit, &CompileTimes::optimize,
+        &CompileTimes::codegen, &CompileTimes::cache})
+    for (const Timing& other : timings)
+      timing.stages.*stage = std::min(timing.stages.*stage, other.stages.*stage);
   return {};
 }
 
