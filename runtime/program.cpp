@@ -300,6 +300,8 @@ Compilation compile(const CheckedShader& shader, const CompileOptions& options) 
   times.optimize = generated.times.optimize;
   watch.lap();
   std::string object;
+  if (generated.error.empty() && !generated.runs_here)
+    generated.error = "code for '" + (options.target.empty() ? options.cpu : options.target) + "' does not run on this machine";
   if (generated.error.empty()) object = generated.object();
   if (!generated.error.empty()) return {nullptr, diagnostics + refusal(shader, generated, options.color_diagnostics)};
   compiled->generated = std::move(generated.info);

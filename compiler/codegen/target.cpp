@@ -57,6 +57,13 @@ llvm::TargetOptions strict_options() {
   return options;
 }
 
+/// Whether this machine has all that the processor has.
+bool runs_here(const llvm::MCSubtargetInfo& processor) {
+  for (const auto& feature : llvm::sys::getHostCPUFeatures())
+    if (!feature.getValue() && processor.checkFeatures(("+" + feature.getKey()).str())) return false;
+  return true;
+}
+
 bool has_feature(const llvm::TargetMachine& machine, const char* feature) {
   return machine.getMCSubtargetInfo()->checkFeatures(std::string("+") + feature);
 }
@@ -95,6 +102,7 @@ Target make_target(const TargetOptions& options) {
       return target;
     }
     target.cpu = options.cpu;
+    target.native = (options.triple.empty() || name == host) && runs_here(*known);
   }
   target.machine.reset(llvm_target->createTargetMachine(name, target.cpu, target.features, strict_options(),
                                                         llvm::Reloc::PIC_, llvm::CodeModel::Small,
