@@ -113,6 +113,9 @@ codegen::Generated generate(const ir::Module& module, const codegen::Options& op
   times.emit = generated.times.emit;
   times.optimize = generated.times.optimize;
   watch.lap();
+  if (generated.error.empty() && !generated.runs_here)
+    generated.error =
+        "code for '" + (options.triple.empty() ? options.cpu : options.triple) + "' does not run on this machine";
   if (generated.error.empty()) object = generated.object();
   times.codegen = watch.lap();
   return generated;

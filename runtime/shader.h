@@ -97,7 +97,7 @@ struct CompileOptions {
   ModuleReader modules;
   /// As clang's -O0 to -O3.
   int optimization = 2;
-  /// "native" or a CPU name of LLVM's; other than native only for emitting text.
+  /// "native" or a CPU name of LLVM's: to run, one of which this machine has all features.
   std::string cpu = "native";
   /// A target triple; empty = this machine's; other than that only for emitting text.
   std::string target;

@@ -204,6 +204,7 @@ Generated generate(const ir::Module& module, const Options& options) {
     generated.error = parts.target.error;
     return generated;
   }
+  generated.runs_here = parts.target.native;
   generated.info.precision = options.precision;
   generated.info.width = choose_width(module, parts.target, options).width;
   parts.context.setDiagnosticHandlerCallBack(listen, &parts);

@@ -83,6 +83,7 @@ public:
   uint64_t exceeded_limit = 0;
   CodeInfo info;
   Times times;
+  bool runs_here = false; ///< this machine has what the code needs
 
   std::string llvm_text() const;
   std::string assembly();

@@ -96,6 +96,13 @@ llvm::TargetOptions strict_options() {
   return options;
 }
 
+/// Whether this machine has all that the processor has.
+bool runs_here(const llvm::MCSubtargetInfo& processor) {
+  for (const auto& feature : llvm::sys::getHostCPUFeatures())
+    if (!feature.getValue() && processor.checkFeatures(("+" + feature.getKey()).str())) return false;
+  return true;
+}
+
 bool has_feature(const llvm::TargetMachine& machine, const char* feature) {
   return machine.getMCSubtargetInfo()->checkFeatures(std::string("+") + feature);
 }
@@ -135,6 +142,7 @@ const llvm::Target* name_target(const TargetOptions& options, Target& target, st
       return nullptr;
     }
     target.cpu = options.cpu;
+    target.native = (options.triple.empty() || name == host) && runs_here(*known);
   }
   return llvm_target;
 }

@@ -41,6 +41,9 @@ void fuse(Module& module);
 /// Removes all `step`s where no point can take more than Module::step_limit of them. (steps.cpp)
 void remove_bounded_steps(Module& module);
 
+/// Counters of loops that are read behind the loop, too: a second variable for the reads inside. (split_counters.cpp)
+void split_counters(Function& function);
+
 /// All passes in order; debug builds verify after each and abort where one broke a rule.
 void optimize(Module& module, Precision precision);
 

@@ -188,8 +188,7 @@ Measurement measure(const CheckedShader& shader, size_t entry_index, const Optio
   const InterpretOptions plain{.count_steps = false, .step_limit = ends ? 0u : 1'000'000u, .images = options.images};
   if (!add(interpreted(shader, plain, result.error))) return result;
   if (!add(compiled(shader, entry, options, 1, result.error))) return result;
-  const unsigned width = options.width != 0 ? options.width : native_width(options.precision);
-  if (width != 1 && !add(compiled(shader, entry, options, width, result.error))) return result;
+  if (options.width != 1 && !add(compiled(shader, entry, options, options.width, result.error))) return result;
 
   for (unsigned repetition = 0; repetition < options.repetitions; ++repetition)
     for (Contestant& contestant : contestants)

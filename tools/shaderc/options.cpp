@@ -155,8 +155,9 @@ std::string contradiction(const Options& options) {
   if (!options.run && !options.points.empty()) return "--points stands with --run";
   if (!options.run && options.interpret) return "--interpret stands with --run";
   if (options.run && options.compile.entries.size() > 1) return "--run takes one --entry";
-  if (!options.emit && !options.remarks && (options.compile.cpu != "native" || !options.compile.target.empty()))
-    return "--cpu and --target stand with --emit: code for other machines cannot run here";
+  if (!options.emit && !options.remarks && !options.run &&
+      (options.compile.cpu != "native" || !options.compile.target.empty()))
+    return "--cpu and --target stand with --emit, --remarks or --run";
   if (options.compile.bake && !options.run && !options.emit) return "--bake stands with --run and --emit";
   for (const std::string& definition : options.definitions)
     if (split_assignment(definition).name.empty()) return "-D takes NAME=VALUE, not '" + definition + "'";
