@@ -7,6 +7,7 @@
 #include "renderer/geometry/geometry.h"
 #include "renderer/materials/material_set.h"
 #include "renderer/volumes/glow_grid.h"
+#include "renderer/volumes/grid.h"
 
 #include <memory>
 
@@ -43,7 +44,7 @@ struct Volume {
   std::vector<float> controls;
   std::unique_ptr<GlowGrid> glow; ///< null: emits nothing
 
-  size_t index(const int* at) const { return size_t((at[2] * size[1] + at[1]) * size[0] + at[0]); }
+  size_t index(const int* at) const { return cell_index(at, size); }
 };
 
 class VolumeSet {
