@@ -1,6 +1,7 @@
 // Sampling, Fresnel, and the tables of albedos, made at first use by the same sampling.
 #include "renderer/materials/ggx.h"
 
+#include "renderer/materials/diffuse.h"
 #include "renderer/sampling/sampler.h"
 #include "renderer/sampling/warp.h"
 
