@@ -64,10 +64,13 @@ void define_16(llvm::Function& function, unsigned lanes) {
 
 } // namespace
 
+bool has_tables(const Target& target) {
+  return target.vector_bits == 512 && target.machine->getMCSubtargetInfo()->checkFeatures("+avx512vbmi");
+}
+
 void define_tables(llvm::Module& module, const Target& target) {
   llvm::Function* question = module.getFunction("moonshade_target_has_tables");
-  const llvm::MCSubtargetInfo& processor = *target.machine->getMCSubtargetInfo();
-  if (question == nullptr || target.vector_bits != 512 || !processor.checkFeatures("+avx512vbmi")) return;
+  if (question == nullptr || !has_tables(target)) return;
   {
     Builder builder(empty(*question));
     builder.CreateRet(builder.getTrue());
