@@ -91,12 +91,14 @@ private:
     if (tangent == kNone || is_one(factor)) return tangent;
     return is_one(tangent) ? factor : b_->binary(Op::Mul, factor, tangent);
   }
-  /// The slope of a function of the library times what its argument has: 0 where the function does not change, also
-  /// where the argument's derivative is infinite or none. `flat` keeps the comparison for other directions.
+  /// The slope of a function of the library times what its argument has: 0 where the function does not change though
+  /// its argument's derivative is infinite or none. Anywhere else the product itself, whose own derivative counts too.
+  /// `flat` keeps the comparison for other directions.
   ValueId slope_product(ValueId slope, ValueId tangent, ValueId& flat) {
-    if (tangent == kNone || is_one(slope) || is_one(tangent)) return product(slope, tangent);
+    const ValueId made = product(slope, tangent);
+    if (tangent == kNone || is_one(slope) || is_one(tangent)) return made;
     if (flat == kNone) flat = b_->compare(Op::Eq, slope, b_->number(0));
-    return b_->select(flat, b_->number(0), product(slope, tangent));
+    return b_->select(b_->compare(Op::Eq, made, made), made, b_->select(flat, b_->number(0), made));
   }
   ValueId sum(ValueId a, ValueId b) { return a == kNone ? b : b == kNone ? a : b_->binary(Op::Add, a, b); }
   ValueId difference(ValueId a, ValueId b) {
