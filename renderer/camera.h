@@ -2,6 +2,7 @@
 #pragma once
 
 #include "renderer/geometry/geometry.h"
+#include "renderer/lane_math.h"
 #include "renderer/sampling/warp.h"
 #include "renderer/scene/scene.h"
 
@@ -26,13 +27,32 @@ public:
   /// Through a place of the image in pixels, (0, 0) at its upper left corner, and a place of the lens in the unit
   /// square.
   Ray ray(float x, float y, const Vec2& lens = Vec2(0.5f)) const {
-    Vec3 place = corner_ + across_ * x + down_ * y;
-    if (parallel_) return {origin_ + place, 0, forward_, kInfinity};
-    if (lens_radius_ == 0) return {origin_, 0, glm::normalize(place), kInfinity};
-    Vec2 disk = sample_disk(lens) * lens_radius_;
-    Vec3 from = right_ * disk.x + up_ * disk.y;
-    // All rays of one place of the image meet on the plane in focus.
-    return {origin_ + from, 0, glm::normalize(place * focus_ - from), kInfinity};
+    Ray ray;
+    lanes::V3<float> origin, direction;
+    rays(x, y, lens.x, lens.y, origin, direction);
+    ray.origin = {origin[0], origin[1], origin[2]};
+    ray.direction = {direction[0], direction[1], direction[2]};
+    return ray;
+  }
+  /// The same for lanes of them.
+  template <class L>
+  MS_INLINE void rays(L x, L y, L lens_x, L lens_y, lanes::V3<L>& origin, lanes::V3<L>& direction) const {
+    using lanes::spread;
+    lanes::V3<L> place = spread<L>(corner_) + spread<L>(across_) * x + spread<L>(down_) * y;
+    origin = spread<L>(origin_);
+    if (parallel_) {
+      origin = origin + place;
+      direction = spread<L>(forward_);
+    } else if (lens_radius_ == 0) {
+      direction = lanes::unit(place);
+    } else {
+      L disk_x, disk_y;
+      sample_disk(lens_x, lens_y, disk_x, disk_y);
+      lanes::V3<L> from = spread<L>(right_) * (disk_x * L(lens_radius_)) + spread<L>(up_) * (disk_y * L(lens_radius_));
+      origin = origin + from;
+      // All rays of one place of the image meet on the plane in focus.
+      direction = lanes::unit(place * L(focus_) - from);
+    }
   }
   bool has_lens() const { return lens_radius_ > 0; }
 

@@ -16,19 +16,28 @@ namespace moonshade::renderer {
 
 namespace {
 
-constexpr size_t kBatchPaths = 8192;           // a batch's working set stays within a core's own cache
+constexpr size_t kBatchPaths = 2048;           // a batch's working set stays within a core's own cache
 constexpr size_t kPassPaths = size_t(1) << 20; // a pass buffer of some 12 MB
 constexpr int kBlock = Adaptive::kBlock;       // pixels
 
-/// All pixels of the crop, block by block.
-std::vector<uint32_t> pixel_order(const Crop& crop, int width) {
+/// All pixels of the crop, block by block, in these group by group (task.h). `whole`: no group is cut by the crop's
+/// edge, so that a crop's bits are those of the whole.
+std::vector<uint32_t> pixel_order(Crop crop, const Settings& settings, bool whole) {
+  int right = crop.x + crop.width, bottom = crop.y + crop.height;
+  if (whole) {
+    auto up = [](int x) { return (x + kGroupSide - 1) / kGroupSide * kGroupSide; };
+    crop.x -= crop.x % kGroupSide, crop.y -= crop.y % kGroupSide;
+    right = std::min(up(right), settings.width), bottom = std::min(up(bottom), settings.height);
+  }
   std::vector<uint32_t> order;
-  order.reserve(size_t(crop.width) * size_t(crop.height));
-  for (int by = 0; by < crop.height; by += kBlock)
-    for (int bx = 0; bx < crop.width; bx += kBlock)
-      for (int y = by; y < std::min(by + kBlock, crop.height); ++y)
-        for (int x = bx; x < std::min(bx + kBlock, crop.width); ++x)
-          order.push_back(uint32_t(crop.y + y) * uint32_t(width) + uint32_t(crop.x + x));
+  order.reserve(size_t(right - crop.x) * size_t(bottom - crop.y));
+  for (int by = crop.y; by < bottom; by += kBlock)
+    for (int bx = crop.x; bx < right; bx += kBlock)
+      for (int gy = by; gy < std::min(by + kBlock, bottom); gy += kGroupSide)
+        for (int gx = bx; gx < std::min(bx + kBlock, right); gx += kGroupSide)
+          for (int y = gy; y < std::min(gy + kGroupSide, bottom); ++y)
+            for (int x = gx; x < std::min(gx + kGroupSide, right); ++x)
+              order.push_back(uint32_t(y) * uint32_t(settings.width) + uint32_t(x));
   return order;
 }
 
@@ -42,7 +51,7 @@ public:
   Render(const PreparedScene& scene, const RenderOptions& options, RenderProgress& progress)
       : scene_(scene), settings_(scene.scene.settings), options_(options), progress_(progress),
         crop_(options.crop.value_or(Crop{0, 0, settings_.width, settings_.height})),
-        order_(pixel_order(crop_, settings_.width)),
+        order_(pixel_order(crop_, settings_, options.noise <= 0)),
         film_(std::make_unique<Film>(crop_.width, crop_.height, contents(options))),
         adaptive_(crop_.width, crop_.height, options.noise), controls_(*scene.volumes),
         concurrency_(tbb::global_control::max_allowed_parallelism, concurrency_for(options.threads)),
@@ -53,6 +62,7 @@ public:
       setup_ = std::make_unique<PassSetup>(scene, controls_, arena_);
       if (settings_.integrator == IntegratorKind::Sppm) pass_samples_ = 1; // each sample has photons of its own
     }
+    make_groups();
     workers_.resize(size_t(arena_.max_concurrency()));
     radiance_.resize(order_.size() * pass_samples_);
     faulted_.resize(radiance_.size());
@@ -126,6 +136,28 @@ private:
       return !adaptive_.active(int(pixel % uint32_t(settings_.width)) - crop_.x,
                                int(pixel / uint32_t(settings_.width)) - crop_.y);
     });
+    make_groups();
+  }
+
+  /// Cuts `order_` into groups, and these into the pieces that tasks are.
+  void make_groups() {
+    groups_.clear(), pieces_.clear();
+    uint32_t width = uint32_t(settings_.width), before = UINT32_MAX;
+    for (uint32_t pixel : order_) {
+      uint32_t group =
+          pixel / width / kGroupSide * ((width + kGroupSide - 1) / kGroupSide) + pixel % width / kGroupSide;
+      if (group == before)
+        ++groups_.back();
+      else
+        groups_.push_back(1);
+      before = group;
+    }
+    size_t chunk = std::clamp<size_t>(order_.size() / 64, 64, kBatchPaths / pass_samples_);
+    for (size_t group = 0, pixel = 0; group < groups_.size(); ++group) {
+      if (pieces_.empty() || pixel + groups_[group] - pieces_.back().pixel > chunk) pieces_.push_back({pixel, group});
+      pixel += groups_[group];
+    }
+    pieces_.push_back({order_.size(), groups_.size()});
   }
 
   void show_progress() {
@@ -137,8 +169,7 @@ private:
 
   /// One pass into `radiance_`; false where it was given up.
   bool pass(uint32_t first_sample, uint32_t samples) {
-    size_t chunk = std::clamp<size_t>(order_.size() / 64, 64, kBatchPaths / pass_samples_);
-    size_t tasks = (order_.size() + chunk - 1) / chunk;
+    size_t tasks = pieces_.size() - 1;
     std::atomic<bool> complete{true};
     if (setup_ && !should_stop()) setup_->prepare(first_sample);
     auto run_task = [&](size_t index) {
@@ -150,8 +181,10 @@ private:
       auto& worker = workers_[size_t(tbb::this_task_arena::current_thread_index())];
       if (!worker) worker = std::make_unique<Wavefront>(scene_, controls_, kBatchPaths);
       uint64_t rays_before = worker->stats().rays;
-      size_t begin = index * chunk, end = std::min(begin + chunk, order_.size()), at = begin * samples;
-      worker->run({std::span(order_).subspan(begin, end - begin), first_sample, samples,
+      const Piece &piece = pieces_[index], &next = pieces_[index + 1];
+      size_t begin = piece.pixel, end = next.pixel, at = begin * samples;
+      worker->run({std::span(order_).subspan(begin, end - begin),
+                   std::span(groups_).subspan(piece.group, next.group - piece.group), first_sample, samples,
                    setup_ ? &setup_->photons() : nullptr, setup_ ? setup_->cache() : nullptr},
                   {radiance_.data() + at, faulted_.data() + at, first_.empty() ? nullptr : first_.data() + at});
       progress_.paths_done += (end - begin) * samples;
@@ -172,11 +205,15 @@ private:
   void add_to_film(uint32_t samples) {
     auto start = std::chrono::steady_clock::now();
     SampleOutputs outputs{radiance_.data(), faulted_.data(), first_.data()};
-    for (size_t k = 0; k < order_.size(); ++k) {
-      uint32_t x = order_[k] % uint32_t(settings_.width) - uint32_t(crop_.x);
-      uint32_t y = order_[k] / uint32_t(settings_.width) - uint32_t(crop_.y);
-      film_->add(size_t(y) * size_t(crop_.width) + x, outputs, k * samples, samples);
-    }
+    auto add = [&](const tbb::blocked_range<size_t>& range) {
+      for (size_t k = range.begin(); k < range.end(); ++k) {
+        int x = int(order_[k] % uint32_t(settings_.width)) - crop_.x;
+        int y = int(order_[k] / uint32_t(settings_.width)) - crop_.y;
+        if (x < 0 || y < 0 || x >= crop_.width || y >= crop_.height) continue;
+        film_->add(size_t(y) * size_t(crop_.width) + size_t(x), outputs, k * samples, samples);
+      }
+    };
+    arena_.execute([&] { tbb::parallel_for(tbb::blocked_range<size_t>(0, order_.size(), 4096), add); });
     film_->finish_pass(samples);
     film_seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }
@@ -236,6 +273,11 @@ private:
   RenderProgress& progress_;
   Crop crop_;
   std::vector<uint32_t> order_; ///< of the pixels that are sampled
+  std::vector<uint8_t> groups_; ///< sizes of those that belong together
+  struct Piece {
+    size_t pixel, group;
+  };
+  std::vector<Piece> pieces_; ///< where tasks begin, and the end
   std::unique_ptr<Film> film_;
   Adaptive adaptive_;
   VolumeControls controls_;

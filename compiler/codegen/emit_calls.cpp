@@ -1,6 +1,8 @@
 // Calls of the library's exports and of functions of the module (emitter.h).
 #include "compiler/codegen/emitter.h"
 
+#include "stdlib/images.h"
+
 namespace moonshade::codegen {
 
 // --------------------------------------------------------------------------------------------------------- Library
@@ -185,6 +187,7 @@ std::vector<Lanes> FunctionEmitter::library_call(const LibraryFunction& row, con
 
 std::vector<Lanes> FunctionEmitter::call_library(ir::ValueId id, const ir::Instruction& instruction) {
   const LibraryFunction& row = *instruction.library;
+  if (is_texture(row)) return texture(instruction);
   const auto further = activation_->facts->further_results.find(id);
   const uint32_t wanted = further == activation_->facts->further_results.end() ? 1 : further->second | 1;
   std::vector<Lanes> arguments;

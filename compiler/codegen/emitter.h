@@ -104,6 +104,7 @@ public:
   /// Prints are emitted: where they are collected, and where code finds the sink.
   std::vector<PrintPlaceInfo>* prints = nullptr;
   uint64_t print_slot = 0;
+  uint64_t image_slot = 0; ///< where code finds the instance's images
   /// While the init function is emitted, globals are not constant.
   bool constants_are_final = true;
 
@@ -190,6 +191,7 @@ private:
 
   // emit_calls.cpp
   std::vector<Lanes> call_library(ir::ValueId id, const ir::Instruction& instruction);
+  std::vector<Lanes> texture(const ir::Instruction& instruction); // emit_images.cpp
   std::vector<Lanes> library_call(const LibraryFunction& row, const std::vector<Lanes>& arguments, uint32_t wanted);
   std::vector<Lanes> call(ir::ValueId id, const ir::Instruction& instruction);
   std::vector<Lanes> call_outlined(ir::FunctionId callee, const ir::Signature& signature,

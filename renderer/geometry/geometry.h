@@ -78,6 +78,21 @@ struct PlacedObject {
   }
 };
 
+/// Where the corners of an object's triangles stand, for kernels that see plain data only. An object that is no mesh of
+/// its own (a sphere, a mesh that is kept once for several) has none.
+struct TriangleSource {
+  const float* vertices = nullptr; ///< in world space
+  const uint32_t* triangles = nullptr;
+  const float* positions = nullptr; ///< in object space
+  const float* normals = nullptr;   ///< null: flat
+  const uint32_t* normal_corners = nullptr;
+  const float* uvs = nullptr;
+  const uint32_t* uv_corners = nullptr;        ///< null: none
+  float normal_matrix[9] = {}, linear[9] = {}; ///< by columns
+  float scale = 1;
+  bool mirrored = false, identity = true;
+};
+
 class Geometry {
 public:
   /// A mesh with as many triangles is kept once where several objects have it.
@@ -92,8 +107,13 @@ public:
 
   std::span<const PlacedObject> objects() const { return objects_; }
   const Box& bounds() const { return bounds_; }
+  /// By object.
+  std::span<const TriangleSource> sources() const { return sources_; }
 
   void closest(std::span<const Ray> rays, Hit* hits) const;
+  /// The same for at most 16 rays from near each other, `coherent` where they also go nearly the same way. Which of two
+  /// equally near hits is reported may depend on all of them.
+  void closest_together(std::span<const Ray> rays, Hit* hits, bool coherent) const;
   /// 1 where something opaque lies between near and far.
   void occluded(std::span<const Ray> rays, uint8_t* blocked) const;
 
@@ -103,14 +123,16 @@ private:
   struct Embree;
   Geometry();
   bool commit(std::string& error);
+  size_t triangle_count() const;
   RTCGeometryTy* triangles(PlacedObject& placed, bool instanced);
   RTCGeometryTy* instance_of(PlacedObject& placed);
   void attach(unsigned id);
-  SurfacePoint triangle_point(const PlacedObject& placed, const Ray& ray, const Hit& hit) const;
+  SurfacePoint triangle_at(const PlacedObject& placed, const Ray& ray, const Hit& hit) const;
   SurfacePoint sphere_point(const PlacedObject& placed, const Ray& ray, const Hit& hit) const;
 
   std::vector<uint8_t> passable_;
   std::vector<PlacedObject> objects_;
+  std::vector<TriangleSource> sources_;
   Box bounds_;
   std::unique_ptr<Embree> embree_;
 };

@@ -1,92 +1,52 @@
-// Points on surfaces from a ray and the ids of what it met. The offset bounds the error of the point and of the next
-// intersection with the same primitive (both grow with the size of the coordinates involved).
+// Points on surfaces from a ray and the ids of what it met, one by one.
 #include "renderer/geometry/geometry.h"
+#include "renderer/geometry/triangle_point.h"
 
 namespace moonshade::renderer {
 
-namespace {
+static float largest(const Vec3& v) { return max_component(glm::abs(v)); }
 
-constexpr float kRelativeError = 7.0f / (1 << 24); // seven roundings
-
-struct Barycentric {
-  double u, v, distance;
-};
-
-/// Möller and Trumbore in double; the result is kept on the triangle.
-Barycentric meet(const DVec3& a, const DVec3& e1, const DVec3& e2, const Ray& ray) {
-  DVec3 d(ray.direction);
-  DVec3 p = glm::cross(d, e2);
-  double determinant = glm::dot(e1, p);
-  if (determinant == 0) return {1.0 / 3, 1.0 / 3, glm::dot(a + (e1 + e2) / 3.0 - DVec3(ray.origin), d)};
-  DVec3 t = DVec3(ray.origin) - a;
-  DVec3 q = glm::cross(t, e1);
-  double u = std::clamp(glm::dot(t, p) / determinant, 0.0, 1.0);
-  double v = std::clamp(glm::dot(d, q) / determinant, 0.0, 1.0);
-  if (u + v > 1) {
-    double excess = 1 / (u + v);
-    u *= excess, v *= excess;
-  }
-  return {u, v, glm::dot(e2, q) / determinant};
-}
-
-float largest(const Vec3& v) { return max_component(glm::abs(v)); }
-
-/// Derivatives of P by the texture coordinates of the corners.
-bool derivatives(const Vec2 uv[3], const Vec3& e1, const Vec3& e2, Vec3& dpdu, Vec3& dpdv) {
-  Vec2 d1 = uv[1] - uv[0], d2 = uv[2] - uv[0];
-  float determinant = d1.x * d2.y - d1.y * d2.x;
-  if (!(std::abs(determinant) > 1e-20f)) return false;
-  float inverse = 1 / determinant;
-  dpdu = (e1 * d2.y - e2 * d1.y) * inverse;
-  dpdv = (e2 * d1.x - e1 * d2.x) * inverse;
-  return is_finite(dpdu) && is_finite(dpdv) && !is_black(glm::cross(dpdu, dpdv));
-}
-
-} // namespace
-
-SurfacePoint Geometry::triangle_point(const PlacedObject& placed, const Ray& ray, const Hit& hit) const {
+SurfacePoint Geometry::triangle_at(const PlacedObject& placed, const Ray& ray, const Hit& hit) const {
   const Mesh& mesh = *placed.object->mesh;
   const Mesh::Corners& corner = mesh.triangles[hit.primitive];
-  const Vec3 a = placed.vertices[corner[0]], b = placed.vertices[corner[1]], c = placed.vertices[corner[2]];
-  DVec3 e1 = DVec3(b) - DVec3(a), e2 = DVec3(c) - DVec3(a);
-  Barycentric at = meet(DVec3(a), e1, e2, ray);
+  auto lane = [](const Vec3& v) { return lanes::V3<float>{{v.x, v.y, v.z}}; };
+  auto vector = [](const lanes::V3<float>& v) { return Vec3(v[0], v[1], v[2]); };
+  bool smooth = !mesh.normal_corners.empty();
+  const Mesh::Corners n = smooth ? mesh.normal_corners[hit.primitive] : Mesh::Corners{};
+  auto normal = [&](int k) { return lane(smooth ? mesh.normals[n[size_t(k)]] : Vec3(0)); };
+  const Vec3 &la = mesh.positions[corner[0]], &lb = mesh.positions[corner[1]], &lc = mesh.positions[corner[2]];
+  const Mat3& m = placed.normal_matrix;
+  TrianglePoint<float> at = triangle_point<float>({lane(ray.origin),
+                                                   lane(ray.direction),
+                                                   lane(placed.vertices[corner[0]]),
+                                                   lane(placed.vertices[corner[1]]),
+                                                   lane(placed.vertices[corner[2]]),
+                                                   {placed.mirrored},
+                                                   {placed.identity},
+                                                   lane(la),
+                                                   lane(lb),
+                                                   lane(lc),
+                                                   {{lane(m[0]), lane(m[1]), lane(m[2])}},
+                                                   {smooth},
+                                                   normal(0),
+                                                   normal(1),
+                                                   normal(2)});
   SurfacePoint s;
-  s.distance = float(at.distance);
-  s.world = Vec3(DVec3(a) + e1 * at.u + e2 * at.v);
-  s.offset = kRelativeError * std::max(largest(a), std::max(largest(b), largest(c)));
-  if (placed.identity) {
-    s.local = s.world;
-  } else {
-    DVec3 la(mesh.positions[corner[0]]), lb(mesh.positions[corner[1]]), lc(mesh.positions[corner[2]]);
-    s.local = Vec3(la + (lb - la) * at.u + (lc - la) * at.v);
-    // Embree meets an instance in object space: its errors there count as well.
-    if (placed.vertices.kept().empty())
-      s.offset += kRelativeError * placed.greatest_scale *
-                  std::max(largest(Vec3(la)), std::max(largest(Vec3(lb)), largest(Vec3(lc))));
-  }
-  s.geometric_normal = Vec3(glm::normalize(glm::cross(e1, e2))) * (placed.mirrored ? -1.0f : 1.0f);
-
-  float u = float(at.u), v = float(at.v), w = 1 - u - v;
-  s.shading_normal = s.geometric_normal;
-  if (!mesh.normal_corners.empty()) {
-    const Mesh::Corners& n = mesh.normal_corners[hit.primitive];
-    Vec3 normal = mesh.normals[n[0]] * w + mesh.normals[n[1]] * u + mesh.normals[n[2]] * v;
-    if (!placed.identity) normal = placed.normal_matrix * normal;
-    s.shading_normal = normalize_or(normal, s.geometric_normal);
-    // The file's normals say which side is outside, whatever the order of the corners.
-    if (glm::dot(s.shading_normal, s.geometric_normal) < 0) s.geometric_normal = -s.geometric_normal;
-  }
-  Vec2 uv[3] = {{0, 0}, {1, 0}, {1, 1}};
+  s.world = vector(at.world), s.local = vector(at.local);
+  s.geometric_normal = vector(at.geometric_normal), s.shading_normal = vector(at.shading_normal);
+  s.distance = at.distance, s.offset = at.offset;
+  // Embree meets an instance in object space: its errors there count as well.
+  if (!placed.identity && placed.vertices.kept().empty())
+    s.offset += kRelativeError * placed.greatest_scale * std::max(largest(la), std::max(largest(lb), largest(lc)));
+  float uv[3][2] = {{0, 0}, {1, 0}, {1, 1}};
   if (!mesh.uv_corners.empty() && mesh.uv_corners[hit.primitive][0] != Mesh::kNoIndex) {
     const Mesh::Corners& t = mesh.uv_corners[hit.primitive];
-    for (int i = 0; i < 3; ++i)
-      if (t[i] != Mesh::kNoIndex) uv[i] = mesh.uvs[t[i]];
+    for (size_t i = 0; i < 3; ++i)
+      if (t[i] != Mesh::kNoIndex) uv[i][0] = mesh.uvs[t[i]].x, uv[i][1] = mesh.uvs[t[i]].y;
   }
-  s.uv = uv[0] * w + uv[1] * u + uv[2] * v;
-  if (!derivatives(uv, Vec3(e1), Vec3(e2), s.dpdu, s.dpdv)) {
-    Frame frame(s.geometric_normal);
-    s.dpdu = frame.s, s.dpdv = frame.t;
-  }
+  TexturePoint<float> texture = texture_point(at, uv);
+  s.uv = {texture.u, texture.v};
+  s.dpdu = vector(texture.dpdu), s.dpdv = vector(texture.dpdv);
   return s;
 }
 
@@ -121,7 +81,7 @@ SurfacePoint Geometry::sphere_point(const PlacedObject& placed, const Ray& ray, 
 
 SurfacePoint Geometry::surface(const Ray& ray, const Hit& hit) const {
   const PlacedObject& placed = objects_[hit.object];
-  return placed.object->shape == Shape::Mesh ? triangle_point(placed, ray, hit) : sphere_point(placed, ray, hit);
+  return placed.object->shape == Shape::Mesh ? triangle_at(placed, ray, hit) : sphere_point(placed, ray, hit);
 }
 
 } // namespace moonshade::renderer

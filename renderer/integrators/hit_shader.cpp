@@ -1,11 +1,24 @@
 #include "renderer/integrators/hit_shader.h"
 
+#include "renderer/materials/bump.h"
+#include "renderer/materials/diffuse.h"
+
 namespace moonshade::renderer {
 
 HitShader::HitShader(const Scene& scene, const Geometry& geometry, const MaterialSet& materials, size_t capacity)
-    : geometry_(geometry), materials_(materials), batch_(capacity, scene.settings.time, scene.settings.frame),
-      met_(capacity), material_(capacity), run_start_(materials.size() + 1), points_(capacity), targets_(capacity) {
+    : geometry_(geometry), materials_(materials), kernels_(kernels()),
+      batch_(capacity, scene.settings.time, scene.settings.frame), sorted_(capacity), material_(capacity),
+      run_start_(materials.size() + 1) {
   added_.reserve(capacity);
+  for (std::vector<float>* array : {&distance_, &offset_, &outward_[0], &outward_[1], &outward_[2]})
+    array->resize(capacity + kLanes);
+  for (size_t c = 0; c < std::size(arrays_.inputs); ++c)
+    arrays_.inputs[c] = batch_.inputs[c].data();
+  arrays_.backface = batch_.backface.data();
+  arrays_.id = batch_.id.data();
+  arrays_.distance = distance_.data(), arrays_.offset = offset_.data();
+  for (int c = 0; c < 3; ++c)
+    arrays_.outward[c] = outward_[c].data();
 }
 
 /// A counting sort.
@@ -15,10 +28,12 @@ void HitShader::sort() {
     material_[k] = geometry_.objects()[added_[k].hit.object].material_of(added_[k].hit.primitive);
     ++run_start_[material_[k] + 1];
   }
+  one_run_ = added_.empty() || run_start_[material_[0] + 1] == added_.size();
   for (size_t m = 1; m < run_start_.size(); ++m)
     run_start_[m] += run_start_[m - 1];
+  if (one_run_) return;
   for (size_t k = 0; k < added_.size(); ++k)
-    met_[run_start_[material_[k]]++] = added_[k];
+    sorted_[run_start_[material_[k]]++] = added_[k];
   for (size_t m = run_start_.size() - 1; m > 0; --m)
     run_start_[m] = run_start_[m - 1];
   run_start_[0] = 0;
@@ -26,69 +41,72 @@ void HitShader::sort() {
 
 void HitShader::shade_run(const CompiledMaterial& material, size_t begin, size_t end, FaultLog& faults,
                           WorkerStats& stats) {
-  for (size_t k = begin; k < end; ++k) {
-    Met& met = met_[k];
-    points_[k] = geometry_.surface(*met.ray, met.hit);
-    const PlacedObject& placed = geometry_.objects()[met.hit.object];
-    met.width += met.spread * points_[k].distance;
-    targets_[k] = {&placed, &points_[k], met.width / placed.scale};
-    fill_inputs(material.needs, k);
-  }
+  shown_ = &material;
+  bool bends = material.height.has_value();
+  place(material.needs, bends, begin, end);
   stats.shading_points += end - begin;
+  auto clear_faults = [&] { std::fill_n(batch_.faulted.begin() + long(begin), end - begin, uint8_t(0)); };
+  if (!material.has_shaders()) return clear_faults();
   double start = thread_seconds();
-  materials_.bend(material, batch_, begin, end - begin, targets_.data() + begin, faults);
-  for (size_t k = begin; k < end; ++k)
-    fill_normal(k);
+  if (bends) bend_normals(material, batch_, begin, end - begin, {geometry_, met() + begin, arrays_}, faults);
+  clear_faults(); // those of `height` do not count
   materials_.shade(material, batch_, begin, end - begin, faults);
   stats.shader_seconds += thread_seconds() - start;
 }
 
-namespace {
-
-void store(ShadingBatch& batch, Channel channel, size_t k, const Vec3& v) {
-  for (int c = 0; c < 3; ++c)
-    batch.inputs[size_t(channel) + size_t(c)][k] = v[c];
+/// Whatever the material's shaders and the integrators read of points.
+void HitShader::place(uint32_t needs, bool bends, size_t begin, size_t end) {
+  const TriangleSource* sources = geometry_.sources().data();
+  for (size_t at = begin; at < end; at += kLanes) {
+    size_t count = std::min(kLanes, end - at);
+    Met* block = met() + at;
+    bool triangles = std::all_of(block, block + count, [&](const Met& m) { return sources[m.hit.object].vertices; });
+    if (triangles)
+      kernels_.triangle_points(sources, block, count, needs, bends, arrays_, at);
+    else
+      for (size_t k = at; k < at + count; ++k)
+        place_one(needs, bends, k);
+  }
 }
 
-constexpr uint32_t mask_of(Channel channel, unsigned components) { return ((1u << components) - 1) << channel; }
+static void store(const PointArrays& arrays, Channel channel, size_t k, const Vec3& v) {
+  for (int c = 0; c < 3; ++c)
+    arrays.inputs[size_t(channel) + size_t(c)][k] = v[c];
+}
 
-} // namespace
-
-/// Whatever the material's shaders read, but for the final normal.
-void HitShader::fill_inputs(uint32_t needs, size_t k) {
-  const SurfacePoint& s = points_[k];
-  const Vec3& incident = met_[k].ray->direction;
+/// What the kernel does for triangles, for a point of anything.
+void HitShader::place_one(uint32_t needs, bool bends, size_t k) {
+  Met& met = this->met()[k];
+  SurfacePoint s = geometry_.surface(*met.ray, met.hit);
+  const Vec3& incident = met.ray->direction;
+  met.width += met.spread * s.distance;
   bool backface = glm::dot(s.geometric_normal, incident) > 0;
   float side = backface ? -1.0f : 1.0f;
   batch_.backface[k] = backface;
-  batch_.id[k] = int64_t(met_[k].hit.object);
-  if (needs == 0) return;
-  store(batch_, kLocal, k, s.local);
-  store(batch_, kWorld, k, s.world);
-  store(batch_, kNormal, k, s.shading_normal * side);
-  if (needs & mask_of(kGeometric, 3)) store(batch_, kGeometric, k, s.geometric_normal * side);
-  if (needs & mask_of(kIncident, 3)) store(batch_, kIncident, k, incident);
-  if (needs & mask_of(kUv, 2)) batch_.inputs[kUv][k] = s.uv.x, batch_.inputs[kUv + 1][k] = s.uv.y;
-  if (needs & mask_of(kDpdu, 3)) store(batch_, kDpdu, k, s.dpdu);
-  if (needs & mask_of(kDpdv, 3)) store(batch_, kDpdv, k, s.dpdv);
-  batch_.inputs[kFootprint][k] = targets_[k].footprint;
-}
-
-/// Both normals towards the viewer, from here on; the shading normal is the bumped one.
-void HitShader::fill_normal(size_t k) {
-  SurfacePoint& s = points_[k];
-  float side = batch_.backface[k] ? -1.0f : 1.0f;
-  s.geometric_normal *= side;
-  s.shading_normal = turned_to_viewer(s.shading_normal * side, s.geometric_normal, -met_[k].ray->direction);
-  store(batch_, kNormal, k, s.shading_normal);
+  batch_.id[k] = int64_t(met.hit.object);
+  Vec3 geometric = s.geometric_normal * side, shading = s.shading_normal * side;
+  store(arrays_, kWorld, k, s.world);
+  store(arrays_, kGeometric, k, geometric);
+  distance_[k] = s.distance, offset_[k] = s.offset;
+  for (int c = 0; c < 3; ++c)
+    outward_[c][k] = s.shading_normal[c];
+  store(arrays_, kNormal, k, bends ? shading : turned_to_viewer(shading, geometric, -incident));
+  if (needs == 0 && !bends) return;
+  store(arrays_, kLocal, k, s.local);
+  store(arrays_, kIncident, k, incident);
+  batch_.inputs[kUv][k] = s.uv.x, batch_.inputs[kUv + 1][k] = s.uv.y;
+  store(arrays_, kDpdu, k, s.dpdu);
+  store(arrays_, kDpdv, k, s.dpdv);
+  batch_.inputs[kFootprint][k] = met.width / geometry_.objects()[met.hit.object].scale;
 }
 
 SurfaceValues HitShader::values(size_t k) const {
+  const CompiledMaterial& m = *shown_;
   auto triple = [&](Slot slot) {
-    size_t at = kResultOffset[size_t(slot)];
-    return Vec3(batch_.results[at][k], batch_.results[at + 1][k], batch_.results[at + 2][k]);
+    if (!m.calls[size_t(slot)]) return m.constants[size_t(slot)];
+    return Vec3(results(slot, 0)[k], results(slot, 1)[k], results(slot, 2)[k]);
   };
-  auto single = [&](Slot slot) { return batch_.results[kResultOffset[size_t(slot)]][k]; };
+  auto single = [&](Slot slot) { return m.calls[size_t(slot)] ? results(slot, 0)[k] : m.constants[size_t(slot)].x; };
   return {triple(Slot::Color),    triple(Slot::Reflectance), triple(Slot::Emission),     single(Slot::Roughness),
           single(Slot::Metallic), single(Slot::Ior),         single(Slot::Transmission), single(Slot::Opacity)};
 }

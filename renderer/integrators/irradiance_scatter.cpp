@@ -25,7 +25,7 @@ void Wavefront::scatter_irradiance(const CompiledMaterial& material, size_t begi
       if (bsdf.has_extent(followed)) sample_light(path, index, k, bsdf, followed, true);
     }
     if (bsdf.has_extent(looked_up)) {
-      const SurfacePoint& s = shader_.point(k);
+      const ShadedPoint s = shader_.point(k);
       Vec3 around = cache_->at(s.world, s.geometric_normal, shader_.width(k)) * kInvPi;
       path.radiance += path.throughput * bsdf.ambient(around, looked_up & kFacetLobe ? around : Vec3(0));
     }

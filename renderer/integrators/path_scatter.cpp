@@ -1,11 +1,13 @@
 // Path tracing: at every vertex one light sample and one BSDF sample, weighed by the power heuristic; Russian roulette
-// by the throughput from the fifth segment on. A path has at most Settings::depth segments.
+// by the throughput from the fifth segment on. A path has at most Settings::depth segments. diffuse_scatter.cpp does
+// the same, many points at once, for materials that can be nothing but diffuse.
 #include "renderer/integrators/wavefront.h"
 #include "renderer/sampling/warp.h"
 
 namespace moonshade::renderer {
 
 void Wavefront::scatter_path(const CompiledMaterial& material, size_t begin, size_t end) {
+  if (material.only_diffuse()) return scatter_diffuse(material, begin, end);
   bool has_lights = scene_.lights->count() > 0;
   for (size_t k = begin; k < end; ++k) {
     uint32_t index = shader_.owner(k);
@@ -28,7 +30,7 @@ void Wavefront::add_emission(Path& path, const CompiledMaterial& material, size_
   if (is_black(values.emission) || (material.emits_outward_only && shader_.backface(k))) return;
   float weight = 1;
   if (!path.mirror) {
-    const SurfacePoint& s = shader_.point(k);
+    const ShadedPoint s = shader_.point(k);
     const Hit& hit = shader_.hit(k);
     float pdf = scene_.lights->object_pdf(hit.object, hit.primitive, path.from, path.ray.direction,
                                           path.travelled + s.distance, s.geometric_normal);

@@ -114,9 +114,8 @@ void PhotonTracer::ask_emitters() {
     rays_[k] = {photon.ray.origin + photon.ray.direction * away, 0, -photon.ray.direction, kInfinity};
     shader_.add(k, rays_[k], {photon.object, photon.primitive, away}, 0, 0);
   }
-  miss_shader_.shade(faults_, stats_, [&](uint32_t k, const Vec3& radiance, bool faulted) {
-    paths_[k].power *= faulted ? Vec3(0) : radiance;
-  });
+  miss_shader_.shade(faults_, stats_,
+                     [&](const MissShader::Arrival& a) { paths_[a.owner].power *= a.faulted ? Vec3(0) : a.radiance; });
   shader_.shade(faults_, stats_, [&](const CompiledMaterial&, size_t begin, size_t end) {
     for (size_t k = begin; k < end; ++k) {
       SurfaceValues values = shader_.values(k);
@@ -196,7 +195,7 @@ void PhotonTracer::bounce(const CompiledMaterial& material, size_t k) {
   Path& path = paths_[index];
   path.alive = false;
   if (shader_.faulted(k)) return;
-  const SurfacePoint& s = shader_.point(k);
+  const ShadedPoint s = shader_.point(k);
   SurfaceValues values = shader_.values(k);
   auto go_straight = [&] {
     path.ray.origin = s.world - s.geometric_normal * s.offset;

@@ -75,7 +75,7 @@ void ShadowTracer::pass_through(FaultLog& faults, WorkerStats& stats) {
       for (size_t k = begin; k < end; ++k) {
         Shadow& shadow = shadows_[shader_->owner(k)];
         shadow.contribution *= shader_->straight_through(material, k);
-        const SurfacePoint& s = shader_->point(k);
+        const ShadedPoint s = shader_->point(k);
         shadow.ray.origin = s.world - s.geometric_normal * s.offset;
         shadow.ray.far -= s.distance;
         shadow.light.distance -= s.distance;
@@ -130,8 +130,8 @@ void ShadowTracer::ask_emitters(FaultLog& faults, WorkerStats& stats) {
     else
       miss_shader_.add(k, shadow.ray.direction, shadow.spread);
   }
-  miss_shader_.shade(faults, stats, [&](uint32_t k, const Vec3& radiance, bool faulted) {
-    shadows_[k].contribution *= faulted ? Vec3(0) : radiance;
+  miss_shader_.shade(faults, stats, [&](const MissShader::Arrival& a) {
+    shadows_[a.owner].contribution *= a.faulted ? Vec3(0) : a.radiance;
   });
   if (!shader_) return;
   shader_->shade(faults, stats, [&](const CompiledMaterial& material, size_t begin, size_t end) {

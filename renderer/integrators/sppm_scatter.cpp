@@ -37,7 +37,7 @@ void Wavefront::scatter_sppm(const CompiledMaterial& material, size_t begin, siz
 
 /// Radiance to the viewer of light that has bounced before.
 Vec3 Wavefront::gather(const Path& path, size_t k, const Bsdf& bsdf, uint8_t lobes) const {
-  const SurfacePoint& s = shader_.point(k);
+  const ShadedPoint s = shader_.point(k);
   float scene_radius = scene_.geometry->bounds().radius();
   float radius = std::clamp(kRadiusPixels * shader_.width(k), kLeastRadius * scene_radius, kMostRadius * scene_radius) *
                  photons_->radius_scale();

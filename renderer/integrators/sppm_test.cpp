@@ -188,5 +188,29 @@ TEST(Sppm, StopsAtTheNoiseAskedForAndIsNotFooledBySharedPhotons) {
   EXPECT_EQ(render_seed(1, 1).result.picture.pixels, a.result.picture.pixels);
 }
 
+TEST(Sppm, ExtrapolatedToNoRadiusIsWhatPathsSee) {
+  // The blur of a photon map goes with the square of its radius: two numbers of passes give the mean at radius 0.
+  auto mean = [](const std::string& settings) {
+    Picture picture = picture_of("render{ width = 32, height = 24, depth = 6, photons = 20000, " + settings + " } " +
+                                 kRoom + "light{ type = 'point', position = {0.5, 2, 1}, color = 5 }");
+    double sum = 0;
+    for (const Vec3& p : picture.pixels)
+      sum += double(luminance(p));
+    return sum / double(picture.pixels.size());
+  };
+  auto mean_square_radius = [](int passes) {
+    double sum = 0, squared = 1;
+    for (int k = 0; k < passes; ++k, squared *= (k + 2.0 / 3) / (k + 1))
+      sum += squared;
+    return sum / passes;
+  };
+  double few = mean("integrator = 'sppm', samples = 8"), many = mean("integrator = 'sppm', samples = 96, seed = 1");
+  double b_few = mean_square_radius(8), b_many = mean_square_radius(96);
+  double extrapolated = many + (many - few) * b_many / (b_few - b_many), path = mean("samples = 1024");
+  EXPECT_LT(few, path); // photons are lost along edges
+  EXPECT_NEAR(many / path, 1, 0.008);
+  EXPECT_NEAR(extrapolated / path, 1, 0.005);
+}
+
 } // namespace
 } // namespace moonshade::renderer

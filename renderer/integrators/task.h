@@ -8,9 +8,13 @@
 
 namespace moonshade::renderer {
 
+/// Pixels that belong together wherever they are rendered: squares of this side, on a grid over the whole image.
+inline constexpr int kGroupSide = 4;
+
 struct Task {
-  /// Pixels of the whole image, as y * width + x.
+  /// Pixels of the whole image, as y * width + x, group by group.
   std::span<const uint32_t> pixels;
+  std::span<const uint8_t> groups; ///< sizes, which make up the pixels
   uint32_t first_sample = 0, samples = 1;
   // Where the integrator asks for them.
   const class PhotonMap* photons = nullptr; ///< of this pass

@@ -4,41 +4,45 @@
 #include "renderer/sampling/warp.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace moonshade::renderer {
 
 static const Vec3 kFaultColor(1, 0, 1);
-static constexpr uint32_t kRouletteFrom = 5;
+static constexpr size_t kLeastTogether = 6;     // rays in a packet that go different ways; fewer are as fast alone
 static constexpr uint32_t kMostSegments = 4096; // of a path, sheets without end included
 
 Wavefront::Wavefront(const PreparedScene& scene, VolumeControls& controls, size_t capacity)
-    : scene_(scene), settings_(scene.scene.settings), camera_(scene.scene.camera, settings_.width, settings_.height),
+    : scene_(scene), settings_(scene.scene.settings), kernels_(kernels()),
+      camera_(scene.scene.camera, settings_.width, settings_.height),
       shader_(scene.scene, *scene.geometry, scene.materials, capacity), miss_shader_(scene, capacity),
-      shadows_(scene, controls, capacity), paths_(capacity), rays_(capacity), hits_(capacity) {
+      shadows_(scene, controls, capacity), paths_(capacity), packets_(capacity), rays_(capacity), hits_(capacity) {
   active_.reserve(capacity);
+  camera_path_.width = camera_.width();
+  camera_path_.spread = camera_.spread();
   if (!scene.volumes->any()) return;
   tracker_ = std::make_unique<VolumeTracker>(scene, controls, capacity);
-  camera_media_ = media_at(*scene.geometry, *scene.volumes, scene.scene.camera.from);
+  camera_path_.media = media_at(*scene.geometry, *scene.volumes, scene.scene.camera.from);
 }
 
 void Wavefront::run(const Task& task, const SampleOutputs& out) {
   last_ = thread_seconds();
-  first_ = out.first;
+  looks_at_first_ = out.first != nullptr;
   photons_ = task.photons;
   cache_ = task.cache;
-  if (first_) std::fill_n(first_, task.pixels.size() * task.samples, FirstHit{});
+  if (looks_at_first_) first_.assign(task.pixels.size() * task.samples, FirstHit{});
   generate(task);
   stats_.film_seconds += lap();
   while (!active_.empty()) {
     trace();
     stats_.trace_seconds += lap();
-    miss_shader_.shade(faults_, stats_, [&](uint32_t owner, const Vec3& radiance, bool faulted) {
-      leave(paths_[owner], radiance, faulted);
-    });
+    take_hits();
+    miss_shader_.shade(faults_, stats_, [&](const MissShader::Arrival& arrival) { leave(arrival); });
     shader_.shade(faults_, stats_, [&](const CompiledMaterial& material, size_t begin, size_t end) {
-      if (first_) note_first_hits(begin, end);
+      if (looks_at_first_) note_first_hits(begin, end);
       scatter(material, begin, end);
     });
+    trace_shadows();
     std::erase_if(active_, [&](uint32_t index) { return !paths_[index].alive; });
     stats_.shade_seconds += lap();
   }
@@ -47,29 +51,40 @@ void Wavefront::run(const Task& task, const SampleOutputs& out) {
 }
 
 void Wavefront::generate(const Task& task) {
-  active_.clear();
-  uint32_t width = uint32_t(settings_.width);
-  for (uint32_t pixel : task.pixels)
-    for (uint32_t s = 0; s < task.samples; ++s) {
-      Path path;
-      path.sampler = Sampler(settings_.seed, pixel, task.first_sample + s);
-      Vec2 u = path.sampler.two(0);
-      float x = float(pixel % width) + 0.5f + sample_tent(u.x), y = float(pixel / width) + 0.5f + sample_tent(u.y);
-      path.ray = camera_.has_lens() ? camera_.ray(x, y, path.sampler.two(kLensDimension)) : camera_.ray(x, y);
-      path.width = camera_.width();
-      path.spread = camera_.spread();
-      path.media = camera_media_;
-      paths_[active_.size()] = path;
-      active_.push_back(uint32_t(active_.size()));
+  const uint32_t* pixels = task.pixels.data();
+  Path* paths = paths_.data();
+  for (uint8_t size : task.groups) {
+    for (uint32_t s = 0; s < task.samples; ++s, paths += size) {
+      std::fill_n(packets_.begin() + (paths - paths_.data()), size, uint32_t(paths - paths_.data()));
+      kernels_.camera_paths(camera_, camera_path_, settings_.seed, pixels, uint32_t(settings_.width),
+                            task.first_sample + s, size, paths);
     }
+    pixels += size;
+  }
+  active_.resize(size_t(paths - paths_.data()));
+  std::iota(active_.begin(), active_.end(), 0u);
   stats_.paths += active_.size();
 }
 
+/// Packets are what is left of a sample of a group: what they report depends on nothing else.
 void Wavefront::trace() {
-  for (size_t k = 0; k < active_.size(); ++k)
+  size_t count = active_.size();
+  for (size_t k = 0; k < count; ++k)
     rays_[k] = paths_[active_[k]].ray;
-  scene_.geometry->closest({rays_.data(), active_.size()}, hits_.data());
-  stats_.rays += active_.size();
+  stats_.rays += count;
+  bool coherent = paths_[active_[0]].segments == 0; // all leave the camera at once
+  for (size_t at = 0, end = 0; at < count; at = end) {
+    while (end < count && packets_[active_[end]] == packets_[active_[at]])
+      ++end;
+    std::span<const Ray> rays(rays_.data() + at, end - at);
+    if (rays.size() >= (coherent ? 2 : kLeastTogether))
+      scene_.geometry->closest_together(rays, hits_.data() + at, coherent);
+    else
+      scene_.geometry->closest(rays, hits_.data() + at);
+  }
+}
+
+void Wavefront::take_hits() {
   shader_.clear();
   flights_.clear();
   for (size_t k = 0; k < active_.size(); ++k) {
@@ -173,16 +188,20 @@ void Wavefront::scatter_in_volume(uint32_t index, const Flight& flight) {
 }
 
 /// What a ray sees that meets nothing.
-void Wavefront::leave(Path& path, const Vec3& radiance, bool faulted) {
+void Wavefront::leave(const MissShader::Arrival& arrival) {
+  Path& path = paths_[arrival.owner];
   path.alive = false;
-  if (faulted) {
+  if (arrival.faulted) {
     path.faulted = true;
     if (path.bounces == 0) path.radiance = kFaultColor;
     return;
   }
-  if (is_black(radiance)) return;
-  float weight = path.mirror ? 1.0f : power_heuristic(path.pdf, scene_.lights->environment_pdf(path.ray.direction));
-  path.radiance += path.throughput * radiance * weight;
+  if (is_black(arrival.radiance)) return;
+  float weight = 1;
+  if (!path.mirror)
+    weight = power_heuristic(path.pdf,
+                             arrival.density ? *arrival.density : scene_.lights->environment_pdf(path.ray.direction));
+  path.radiance += path.throughput * arrival.radiance * weight;
 }
 
 void Wavefront::scatter(const CompiledMaterial& material, size_t begin, size_t end) {
@@ -200,7 +219,6 @@ void Wavefront::scatter(const CompiledMaterial& material, size_t begin, size_t e
     scatter_irradiance(material, begin, end);
     break;
   }
-  trace_shadows();
 }
 
 /// A point without values shows magenta where the camera sees it, and ends the path with nothing anywhere else.
@@ -226,7 +244,7 @@ void Wavefront::absorb(Path& path, const CompiledMaterial& material, size_t k, c
 }
 
 void Wavefront::follow(Path& path, size_t k, const Vec3& direction, float spread) {
-  const SurfacePoint& s = shader_.point(k);
+  const ShadedPoint s = shader_.point(k);
   float side = glm::dot(direction, s.geometric_normal) < 0 ? -1.0f : 1.0f;
   path.ray = {s.world + s.geometric_normal * (s.offset * side), 0, direction, kInfinity};
   path.from = path.ray.origin;
@@ -237,7 +255,7 @@ void Wavefront::follow(Path& path, size_t k, const Vec3& direction, float spread
 }
 
 void Wavefront::go_straight(Path& path, size_t k) {
-  const SurfacePoint& s = shader_.point(k);
+  const ShadedPoint s = shader_.point(k);
   path.ray.origin = s.world - s.geometric_normal * s.offset;
   path.travelled += s.distance;
   path.width = shader_.width(k);
@@ -257,19 +275,22 @@ bool Wavefront::survives(Path& path) {
 
 void Wavefront::add_shadow(uint32_t path, size_t k, const LightSample& light, const Vec3& contribution) {
   if (shadows_.full()) trace_shadows();
-  const SurfacePoint& s = shader_.point(k);
+  const ShadedPoint s = shader_.point(k);
   // The end stops short of the light's own surface.
   float far = light.distance == kInfinity ? kInfinity : light.distance * (1 - 1e-4f) - s.offset;
   float side = glm::dot(light.direction, s.geometric_normal) < 0 ? -1.0f : 1.0f;
-  shadows_.add({{s.world + s.geometric_normal * (s.offset * side), 0, light.direction, far},
-                path,
-                contribution,
-                shader_.width(k),
-                paths_[path].spread,
-                light.emitter,
-                {light.object, light.primitive, light.distance},
-                paths_[path].media,
-                paths_[path].sampler.fork(2 * paths_[path].segments + 1)});
+  Shadow shadow;
+  shadow.ray = {s.world + s.geometric_normal * (s.offset * side), 0, light.direction, far};
+  shadow.owner = path;
+  shadow.contribution = contribution;
+  shadow.width = shader_.width(k), shadow.spread = paths_[path].spread;
+  shadow.emitter = light.emitter;
+  shadow.light = {light.object, light.primitive, light.distance};
+  if (tracker_) {
+    shadow.media = paths_[path].media;
+    shadow.sampler = paths_[path].sampler.fork(2 * paths_[path].segments + 1);
+  }
+  shadows_.add(shadow);
 }
 
 void Wavefront::trace_shadows() {
@@ -279,12 +300,12 @@ void Wavefront::trace_shadows() {
   lap();
 }
 
-/// What paths see that have just left the camera. Paths are numbered as the task's samples are.
+/// What paths see that have just left the camera.
 void Wavefront::note_first_hits(size_t begin, size_t end) {
   for (size_t k = begin; k < end; ++k) {
     uint32_t owner = shader_.owner(k);
     if (paths_[owner].bounces != 0 || first_[owner].object != 0) continue; // volumes are looked through
-    const SurfacePoint& s = shader_.point(k);
+    const ShadedPoint s = shader_.point(k);
     const Hit& hit = shader_.hit(k);
     SurfaceValues values = shader_.values(k);
     Vec3 albedo = values.color * (Vec3(1) - values.reflectance) + values.reflectance;
@@ -294,9 +315,19 @@ void Wavefront::note_first_hits(size_t begin, size_t end) {
   }
 }
 
+/// From the order of groups to that of pixels.
+template <typename Visit> static void each_sample(const Task& task, Visit visit) {
+  size_t path = 0, pixel = 0;
+  for (uint8_t size : task.groups) {
+    for (size_t s = 0; s < task.samples; ++s)
+      for (size_t p = 0; p < size; ++p, ++path)
+        visit(path, (pixel + p) * task.samples + s);
+    pixel += size;
+  }
+}
+
 void Wavefront::deliver(const Task& task, const SampleOutputs& out) {
-  size_t count = task.pixels.size() * task.samples;
-  for (size_t k = 0; k < count; ++k) {
+  each_sample(task, [&](size_t k, size_t at) {
     Vec3 value = paths_[k].radiance;
     if (!is_finite(value)) {
       ++faults_[{"", "radiance", kNotFinite, 0, ""}];
@@ -305,9 +336,10 @@ void Wavefront::deliver(const Task& task, const SampleOutputs& out) {
     }
     float brightest = max_component(glm::abs(value)); // tracking through volumes also gives negative samples
     if (settings_.clamp > 0 && brightest > settings_.clamp) value *= settings_.clamp / brightest;
-    out.radiance[k] = value;
-    if (out.faulted) out.faulted[k] = paths_[k].faulted;
-  }
+    out.radiance[at] = value;
+    if (out.faulted) out.faulted[at] = paths_[k].faulted;
+    if (out.first) out.first[at] = first_[k];
+  });
 }
 
 } // namespace moonshade::renderer

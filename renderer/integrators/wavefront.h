@@ -4,11 +4,13 @@
 // every kind of light with multiple importance sampling, whitted_scatter.cpp direct light and mirrors, sppm_scatter.cpp
 // looks up photons, irradiance_scatter.cpp cached irradiance.
 //
-// A path's numbers depend on its seed, pixel and sample alone; which paths share a batch changes nothing.
+// A path's numbers depend on its seed, pixel and sample alone; which paths share a batch changes nothing. Rays are
+// traced in packets, which are always those of a sample of one group of pixels (task.h).
 #pragma once
 
 #include "renderer/camera.h"
 #include "renderer/integrators/hit_shader.h"
+#include "renderer/integrators/path.h"
 #include "renderer/integrators/photon_map.h"
 #include "renderer/integrators/shadow_tracer.h"
 #include "renderer/integrators/task.h"
@@ -31,32 +33,13 @@ public:
   const FaultLog& faults() const { return faults_; }
 
 private:
-  struct Path {
-    Ray ray;
-    Vec3 throughput{1}, radiance{0};
-    Sampler sampler;
-    Vec3 from{0};        ///< where the direction was drawn: the origin, but for sheets passed since
-    float travelled = 0; ///< from there to the origin
-    float pdf = 0;       ///< of the direction, by the surface it comes from
-    float eta2 = 1;      ///< by which the throughput was divided at interfaces
-    float width = 0;     ///< of the footprint at the ray's origin
-    float spread = 0;    ///< its growth per distance
-    Media media{};
-    uint32_t segments = 0; ///< rays so far
-    uint32_t bounces = 0;  ///< vertices at which the direction changed
-    bool mirror = true;    ///< no light sampling could have found what this ray finds
-    bool alive = true;
-    bool faulted = false;
-  };
-  /// Numbers drawn at one vertex.
-  enum Draw : uint32_t { kLightChoice, kLightPoint, kLobe, kDirection, kRoulette, kOpacity, kDrawCount };
-
   void generate(const Task& task);
   void trace();
+  void take_hits();
   void meet(uint32_t index, const Hit& hit);
   void track_volumes();
   void scatter_in_volume(uint32_t index, const Flight& flight);
-  void leave(Path& path, const Vec3& radiance, bool faulted);
+  void leave(const MissShader::Arrival& arrival);
   void scatter(const CompiledMaterial& material, size_t begin, size_t end);
   bool end_if_faulted(Path& path, size_t k);
   bool passes(Path& path, size_t k, const SurfaceValues& values);
@@ -64,6 +47,9 @@ private:
   bool may_bounce(const Path& path) const { return path.bounces + 1 < settings_.depth; }
 
   void scatter_path(const CompiledMaterial& material, size_t begin, size_t end);
+  void scatter_diffuse(const CompiledMaterial& material, size_t begin, size_t end);
+  void scatter_block(const CompiledMaterial& material, const size_t* points, size_t count);
+  void load_block(const CompiledMaterial& material, const size_t* points, size_t count);
   void add_emission(Path& path, const CompiledMaterial& material, size_t k, const SurfaceValues& values);
   void sample_light(Path& path, uint32_t index, size_t k, const Bsdf& bsdf, uint8_t lobes, bool both_ways);
   bool sample_bsdf(Path& path, size_t k, const Bsdf& bsdf, uint8_t lobes);
@@ -79,9 +65,7 @@ private:
   bool survives(Path& path);
   void add_shadow(uint32_t path, size_t k, const LightSample& light, const Vec3& contribution);
   void trace_shadows();
-  /// Dimension 0 is the place in the pixel; those of a vertex begin behind the first kDrawCount.
-  static constexpr uint32_t kLensDimension = 1;
-  uint32_t dimension(const Path& path, Draw draw) const { return 1 + path.segments * kDrawCount + draw; }
+  static uint32_t dimension(const Path& path, Draw draw) { return dimension_of(path.segments, draw); }
   void deliver(const Task& task, const SampleOutputs& out);
   void note_first_hits(size_t begin, size_t end);
 
@@ -94,6 +78,7 @@ private:
 
   const PreparedScene& scene_;
   const Settings& settings_;
+  const Kernels& kernels_;
   CameraRays camera_;
   HitShader shader_;
   MissShader miss_shader_;
@@ -101,17 +86,21 @@ private:
   WorkerStats stats_;
   FaultLog faults_;
   double last_ = 0;
-  FirstHit* first_ = nullptr; ///< of the task's paths, where asked for
+  bool looks_at_first_ = false;
+  std::vector<FirstHit> first_; ///< of the task's paths, where asked for
   const PhotonMap* photons_ = nullptr;
   const IrradianceCache* cache_ = nullptr;
 
-  std::vector<Path> paths_;
-  std::vector<uint32_t> active_;
+  std::vector<Path> paths_;       ///< group by group, in these sample by sample
+  std::vector<uint32_t> packets_; ///< by path: alike for a sample of one group
+  std::vector<uint32_t> active_;  ///< in the order of paths
   std::vector<Ray> rays_;
   std::vector<Hit> hits_;
   std::unique_ptr<VolumeTracker> tracker_; ///< only where there are volumes
   std::vector<Flight> flights_;
-  Media camera_media_{};
+  Path camera_path_{}; ///< at the camera, before its ray is known
+  ScatterBlock block_{};
+  LightSample block_lights_[kLanes];
 };
 
 } // namespace moonshade::renderer

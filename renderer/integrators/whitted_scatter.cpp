@@ -19,7 +19,7 @@ void Wavefront::scatter_whitted(const CompiledMaterial& material, size_t begin, 
     if (!(material.emits_outward_only && shader_.backface(k))) path.radiance += path.throughput * values.emission;
     if (!may_bounce(path)) continue;
     Bsdf bsdf = shader_.bsdf(material, k, values);
-    const SurfacePoint& s = shader_.point(k);
+    const ShadedPoint s = shader_.point(k);
     path.radiance += path.throughput * bsdf.ambient(lights.sky_irradiance(s.shading_normal) * kInvPi,
                                                     lights.sky_irradiance(bsdf.mirror_direction()) * kInvPi);
     uint8_t onwards = kMirrorLobe | (bsdf.smooth() || bsdf.transmits() ? kFacetLobe : 0);

@@ -2,32 +2,17 @@
 // bands of equal solid angle for the sky, by a table for surroundings, by mean emission along a line for volumes.
 #include "renderer/lights/light_set.h"
 
+#include "renderer/kernels/kernels.h"
 #include "renderer/sampling/warp.h"
 
 namespace moonshade::renderer {
 
-static constexpr int kSkyBands = 256;
-
-Vec3 LightSet::sky_radiance(const Light& light, float height) {
-  if (height >= 0) return glm::mix(light.horizon, light.zenith, std::sqrt(std::min(height, 1.0f)));
-  float t = std::min(-height * 20, 1.0f);
-  return glm::mix(light.horizon, light.ground, t * t * (3 - 2 * t));
-}
-
-static uint32_t sky_band(float height) {
-  return uint32_t(std::clamp(int((height + 1) * 0.5f * kSkyBands), 0, kSkyBands - 1));
-}
-
-float LightSet::sky_pdf(const Entry& entry, float height) {
-  uint32_t band = sky_band(height);
-  float share = entry.cumulative[band] - (band ? entry.cumulative[band - 1] : 0.0f);
-  return share * kSkyBands / (4 * kPi);
-}
-
 /// Index of the first cumulative share above `u`, and `u` made uniform again within it.
 uint32_t LightSet::choose(const std::vector<float>& cumulative, float& u) {
-  auto found = std::upper_bound(cumulative.begin(), cumulative.end() - 1, u);
-  uint32_t index = uint32_t(found - cumulative.begin());
+  // Where all weigh the same, the first guess is right.
+  uint32_t index = std::min(uint32_t(u * float(cumulative.size())), uint32_t(cumulative.size() - 1));
+  bool found = (index == 0 || cumulative[index - 1] <= u) && (index + 1 == cumulative.size() || u < cumulative[index]);
+  if (!found) index = uint32_t(std::upper_bound(cumulative.begin(), cumulative.end() - 1, u) - cumulative.begin());
   float low = index ? cumulative[index - 1] : 0, share = cumulative[index] - low;
   u = share > 0 ? std::clamp((u - low) / share, 0.0f, 0x1.fffffep-1f) : 0.0f;
   return index;
@@ -60,6 +45,7 @@ LightSet::LightSet(const Scene& scene, const Geometry& geometry, const VolumeSet
     Entry entry;
     entry.kind = Kind::Around;
     entry.around = k;
+    formulas_only_ = false;
     if (!environments_[k].is_black()) {
       environment_.push_back(uint32_t(lights_.size()));
       lights_.push_back(std::move(entry));
@@ -81,6 +67,8 @@ LightSet::LightSet(const Scene& scene, const Geometry& geometry, const VolumeSet
     else
       add_sphere(placed, id, emission[id]);
   }
+  for (uint32_t id : environment_)
+    if (lights_[id].kind != Kind::Around) formulas_.push_back(formula_of(lights_[id]));
 }
 
 void LightSet::add_point_or_sun(const Light& light) {
@@ -95,12 +83,34 @@ void LightSet::add_point_or_sun(const Light& light) {
   lights_.push_back(std::move(entry));
 }
 
+EnvironmentLight LightSet::formula_of(const Entry& entry) {
+  EnvironmentLight formula;
+  formula.is_sky = entry.kind == Kind::Sky;
+  if (formula.is_sky) {
+    formula.zenith = entry.light.zenith, formula.horizon = entry.light.horizon, formula.ground = entry.light.ground;
+    formula.density = entry.band_density.data();
+  } else if (entry.one_minus_cos > 0) {
+    formula.direction = entry.light.direction;
+    formula.one_minus_cos = entry.one_minus_cos;
+    formula.disc_density = 1 / (2 * kPi * entry.one_minus_cos);
+    formula.radiance = entry.light.color / (2 * kPi * entry.one_minus_cos);
+  }
+  return formula;
+}
+
+static Vec3 radiance_at(const EnvironmentLight& sky, float height) {
+  lanes::V3<float> radiance = sky_radiance(sky, height);
+  return {radiance[0], radiance[1], radiance[2]};
+}
+
 void LightSet::add_sky(const Light& light) {
+  EnvironmentLight sky;
+  sky.zenith = light.zenith, sky.horizon = light.horizon, sky.ground = light.ground;
   Entry entry;
   entry.kind = Kind::Sky;
   entry.light = light;
   for (int band = 0; band < kSkyBands; ++band)
-    entry.cumulative.push_back(luminance(sky_radiance(light, (band + 0.5f) * 2 / kSkyBands - 1)));
+    entry.cumulative.push_back(luminance(radiance_at(sky, (band + 0.5f) * 2 / kSkyBands - 1)));
   // Irradiance by the normal's height: rings of equal solid angle, each over all azimuths.
   constexpr int kNormals = 65, kAzimuths = 64;
   irradiance_.resize(kNormals);
@@ -112,11 +122,15 @@ void LightSet::add_sky(const Light& light) {
       float cosines = 0;
       for (int a = 0; a < kAzimuths; ++a)
         cosines += std::max(0.0f, x * r * std::cos((a + 0.5f) * 2 * kPi / kAzimuths) + y * h);
-      sum += sky_radiance(light, h) * (cosines / kAzimuths);
+      sum += radiance_at(sky, h) * (cosines / kAzimuths);
     }
     irradiance_[i] += sum * (4 * kPi / kSkyBands);
   }
   if (!accumulate(entry.cumulative)) return; // black
+  for (size_t band = 0; band < kSkyBands; ++band) {
+    float share = entry.cumulative[band] - (band ? entry.cumulative[band - 1] : 0.0f);
+    entry.band_density.push_back(share * kSkyBands / (4 * kPi));
+  }
   environment_.push_back(uint32_t(lights_.size()));
   lights_.push_back(std::move(entry));
 }
@@ -171,34 +185,38 @@ void LightSet::add_sphere(const PlacedObject& placed, uint32_t id, const ObjectE
   lights_.push_back(std::move(entry));
 }
 
+/// Of those that are formulas.
+static void look(std::span<const EnvironmentLight> formulas, const Vec3& direction, Vec3& radiance, float& density) {
+  lanes::V3<float> sum;
+  surroundings(formulas.data(), formulas.size(), lanes::V3<float>{{direction.x, direction.y, direction.z}}, sum,
+               density);
+  radiance = {sum[0], sum[1], sum[2]};
+}
+
 Vec3 LightSet::environment(const Vec3& direction) const {
-  Vec3 sum(0);
-  for (uint32_t id : environment_) {
-    const Entry& e = lights_[id];
-    if (e.kind == Kind::Sky) {
-      sum += sky_radiance(e.light, direction.y);
-    } else if (e.kind == Kind::Around) {
-      sum += environments_[e.around].radiance(direction);
-    } else if (e.one_minus_cos > 0) {
-      Vec3 apart = direction - e.light.direction; // |apart|^2 = 2 (1 - cos): exact for small angles
-      if (glm::dot(apart, apart) <= 2 * e.one_minus_cos) sum += e.light.color / (2 * kPi * e.one_minus_cos);
-    }
-  }
+  Vec3 sum;
+  float density;
+  look(formulas_, direction, sum, density);
+  for (const Environment& environment : environments_)
+    sum += environment.radiance(direction);
   return sum;
 }
 
-float LightSet::entry_pdf(const Entry& e, const Vec3& direction) const {
-  if (e.kind == Kind::Sky) return sky_pdf(e, direction.y);
-  if (e.kind == Kind::Around) return environments_[e.around].pdf(direction);
-  if (e.one_minus_cos <= 0) return 0;
-  Vec3 apart = direction - e.light.direction;
-  return glm::dot(apart, apart) <= 2 * e.one_minus_cos ? 1 / (2 * kPi * e.one_minus_cos) : 0.0f;
+float LightSet::entry_pdf(const Entry& entry, const Vec3& direction) const {
+  if (entry.kind == Kind::Around) return environments_[entry.around].pdf(direction);
+  EnvironmentLight formula = formula_of(entry);
+  Vec3 radiance;
+  float density;
+  look({&formula, 1}, direction, radiance, density);
+  return density;
 }
 
 float LightSet::environment_pdf(const Vec3& direction) const {
-  float sum = 0;
-  for (uint32_t id : environment_)
-    sum += entry_pdf(lights_[id], direction);
+  Vec3 radiance;
+  float sum;
+  look(formulas_, direction, radiance, sum);
+  for (const Environment& environment : environments_)
+    if (!environment.is_black()) sum += environment.pdf(direction);
   return sum / float(lights_.size());
 }
 
@@ -217,27 +235,33 @@ static void ask_surface(LightSample& sample, uint32_t object, uint32_t primitive
   sample.object = object, sample.primitive = primitive;
 }
 
-LightSample LightSet::sample_mesh(const Entry& entry, const Vec3& point, const Vec2& u) const {
-  float first = u.x;
-  uint32_t index = choose(entry.cumulative, first);
-  uint32_t triangle = entry.triangles[index];
+uint32_t LightSet::choose_triangle(const Entry& entry, float& u, Vec3 (&corners)[3], float& density,
+                                   float& side) const {
+  uint32_t index = choose(entry.cumulative, u), triangle = entry.triangles[index];
   const PlacedObject& placed = geometry_.objects()[entry.object];
   const Mesh::Corners& c = placed.object->mesh->triangles[triangle];
-  const Vec3 &a = placed.vertices[c[0]], &b = placed.vertices[c[1]], &d = placed.vertices[c[2]];
-  float root = std::sqrt(first);
-  Vec3 at = a * (1 - root) + b * (root * (1 - u.y)) + d * (root * u.y);
-  Vec3 to = at - point;
-  float squared = glm::dot(to, to);
+  for (size_t k = 0; k < 3; ++k)
+    corners[k] = placed.vertices[c[k]];
+  density = entry.triangle_pdf[triangle];
+  side = placed.mirrored ? -1.0f : 1.0f;
+  return index;
+}
+
+LightSample LightSet::sample_mesh(const Entry& entry, const Vec3& point, const Vec2& u) const {
+  Vec3 corners[3];
+  float within = u.x, density, side;
+  uint32_t index = choose_triangle(entry, within, corners, density, side);
+  auto lane = [](const Vec3& v) { return lanes::V3<float>{{v.x, v.y, v.z}}; };
+  AreaSample<float> area{
+      lane(corners[0]), lane(corners[1]), lane(corners[2]), within, u.y, density, side, {entry.one_sided}, {}, 0, 0};
+  sample_area(lane(point), area);
   LightSample sample;
-  if (!(squared > 0)) return sample;
-  sample.distance = std::sqrt(squared);
-  sample.direction = to / sample.distance;
-  Vec3 normal = normalize_or(glm::cross(b - a, d - a), Vec3(0)) * (placed.mirrored ? -1.0f : 1.0f);
-  float cosine = -glm::dot(normal, sample.direction);
-  if (cosine == 0 || (entry.one_sided && cosine < 0)) return sample;
-  sample.pdf = entry.triangle_pdf[triangle] * squared / std::abs(cosine);
+  if (!(area.pdf > 0)) return sample;
+  sample.direction = {area.direction[0], area.direction[1], area.direction[2]};
+  sample.distance = area.distance;
+  sample.pdf = area.pdf;
   sample.radiance = entry.triangle_emission[index];
-  if (entry.by_shader) ask_surface(sample, entry.object, triangle);
+  if (entry.by_shader) ask_surface(sample, entry.object, entry.triangles[index]);
   return sample;
 }
 
@@ -336,6 +360,47 @@ LightSample LightSet::sample_light(size_t light, const Vec3& point, const Vec2& 
   return {direction, kInfinity, entry.light.color, 1, true};
 }
 
+/// Of a place within a band.
+static float sky_height(uint32_t band, float within) {
+  return std::clamp((float(band) + within) * 2 / kSkyBands - 1, -1.0f, 1.0f);
+}
+
+void LightSet::look_up(ScatterBlock& block, size_t count, LightSample* others) const {
+  for (size_t i = 0; i < kLanes; ++i)
+    block.area[i] = block.sky[i] = block.delta[i] = block.one_sided[i] = 0, block.light_pdf[i] = 0;
+  for (size_t i = 0; i < count; ++i) {
+    const Entry& entry = lights_[block.light[i]];
+    others[i].emitter = Emitter::Known;
+    if (entry.kind == Kind::Mesh) {
+      Vec3 corners[3];
+      uint32_t index = choose_triangle(entry, block.light_u[i], corners, block.density[i], block.side[i]);
+      for (size_t corner = 0; corner < 3; ++corner)
+        for (int c = 0; c < 3; ++c)
+          block.corner[corner][c][i] = corners[corner][c];
+      block.area[i] = 1, block.one_sided[i] = entry.one_sided;
+      Vec3 emission = entry.triangle_emission[index];
+      if (entry.by_shader) {
+        ask_surface(others[i], entry.object, entry.triangles[index]);
+        emission = Vec3(1);
+      }
+      for (int c = 0; c < 3; ++c)
+        block.emission[c][i] = emission[c];
+    } else if (entry.kind == Kind::Sky && formulas_only_) {
+      float within = block.light_u[i];
+      uint32_t band = choose(entry.cumulative, within);
+      block.height[i] = sky_height(band, within);
+      block.sky[i] = 1;
+    } else {
+      Vec3 point(block.point[0][i], block.point[1][i], block.point[2][i]);
+      others[i] = sample_of(block.light[i], point, {block.light_u[i], block.light_v[i]}, block.light_w[i]);
+      for (int c = 0; c < 3; ++c)
+        block.to_light[c][i] = others[i].direction[c], block.radiance[c][i] = others[i].radiance[c];
+      block.light_distance[i] = others[i].distance, block.light_pdf[i] = others[i].pdf;
+      block.delta[i] = others[i].delta;
+    }
+  }
+}
+
 LightSample LightSet::sample_entry(const Entry& entry, const Vec3& point, const Vec2& u, float w) const {
   switch (entry.kind) {
   case Kind::Mesh:
@@ -346,11 +411,9 @@ LightSample LightSet::sample_entry(const Entry& entry, const Vec3& point, const 
     if (entry.one_minus_cos <= 0) return {entry.light.direction, kInfinity, entry.light.color, 1, true};
     return sample_environment(Frame(entry.light.direction).to_world(sample_cone(u, entry.one_minus_cos)));
   case Kind::Sky: {
-    float within = u.x;
-    uint32_t band = choose(entry.cumulative, within);
-    float height = std::clamp((float(band) + within) * 2 / kSkyBands - 1, -1.0f, 1.0f);
-    float r = std::sqrt(std::max(0.0f, 1 - height * height)), phi = 2 * kPi * u.y;
-    return sample_environment(Vec3(r * std::cos(phi), height, r * std::sin(phi)));
+    Vec2 within = u;
+    lanes::V3<float> d = direction_at_height(sky_height(choose(entry.cumulative, within.x), within.x), within.y);
+    return sample_environment({d[0], d[1], d[2]});
   }
   case Kind::Around:
     return sample_environment(environments_[entry.around].sample(u));
@@ -365,13 +428,17 @@ LightSample LightSet::sample_entry(const Entry& entry, const Vec3& point, const 
   return sample_point(entry, point);
 }
 
-LightSample LightSet::sample(const Vec3& point, float choice, const Vec2& u) const {
-  if (lights_.empty()) return {};
-  float scaled = choice * float(lights_.size());
-  size_t light = std::min(size_t(scaled), lights_.size() - 1);
-  LightSample sample = sample_entry(lights_[light], point, u, scaled - float(light));
+LightSample LightSet::sample_of(size_t light, const Vec3& point, const Vec2& u, float w) const {
+  LightSample sample = sample_entry(lights_[light], point, u, w);
   if (sample.distance < kInfinity || sample.delta) sample.pdf /= float(lights_.size()); // the mixture's already is
   return sample;
+}
+
+LightSample LightSet::sample(const Vec3& point, float choice, const Vec2& u) const {
+  if (lights_.empty()) return {};
+  float place = choice * float(lights_.size());
+  size_t light = std::min(size_t(place), lights_.size() - 1);
+  return sample_of(light, point, u, place - float(light));
 }
 
 float LightSet::object_pdf(uint32_t object, uint32_t primitive, const Vec3& from, const Vec3& direction, float distance,

@@ -8,6 +8,7 @@
 #include "renderer/geometry/geometry.h"
 #include "renderer/lights/emission.h"
 #include "renderer/lights/environment.h"
+#include "renderer/lights/light_lanes.h"
 #include "renderer/scene/scene.h"
 #include "renderer/volumes/volume_set.h"
 
@@ -41,6 +42,9 @@ public:
   size_t count() const { return lights_.size(); }
   /// One light chosen by `choice`, and a point of it by what is left of that and `u`.
   LightSample sample(const Vec3& point, float choice, const Vec2& u) const;
+  /// The same for the lights that a block of points has drawn: what is a formula is left to the kernel (kernels.h), the
+  /// rest is found. Emitters of the other points are Known.
+  void look_up(struct ScatterBlock& block, size_t count, LightSample* others) const;
   /// A given light by itself, as direct lighting sums them: the density is that of this light alone, and the sun counts
   /// as irradiance from a direction within its disc. Not for skies.
   LightSample sample_light(size_t light, const Vec3& point, const Vec2& u, float w) const;
@@ -55,6 +59,10 @@ public:
     return std::any_of(lights_.begin(), lights_.end(), [](const Entry& e) { return e.by_shader; });
   }
   std::span<const Environment> environments() const { return environments_; }
+  /// Where the surroundings are formulas only, `formulas` are all of them, and their density is
+  /// environment_pdf's times the number of lights.
+  bool has_formulas_only() const { return formulas_only_; }
+  std::span<const EnvironmentLight> formulas() const { return formulas_; }
   /// Density of `sample` for a direction that leaves the scene.
   float environment_pdf(const Vec3& direction) const;
   /// Density of `sample` for a point on an object, seen from `distance` away along `direction`; 0 where the object is
@@ -78,6 +86,7 @@ private:
     float one_minus_cos = 0;             ///< Sun
     std::vector<uint32_t> triangles;     ///< Mesh: those that emit
     std::vector<float> cumulative;       ///< Mesh: over their weights; Sky: over bands of height
+    std::vector<float> band_density;     ///< Sky: per solid angle, by band
     std::vector<float> triangle_pdf;     ///< Mesh: density per area, by primitive; 0 where it does not emit
     std::vector<Vec3> triangle_emission; ///< Mesh: parallel to `triangles`
     Vec3 emission{0};                    ///< Sphere, Ellipsoid
@@ -97,23 +106,29 @@ private:
   LightSample sample_sphere(const Entry& entry, const Vec3& point, const Vec2& u) const;
   LightSample sample_ellipsoid(const Entry& entry, const Vec3& point, const Vec2& u) const;
   LightSample sample_point(const Entry& entry, const Vec3& point) const;
+  /// As `sample` does, of a light that is chosen.
+  LightSample sample_of(size_t light, const Vec3& point, const Vec2& u, float w) const;
   LightSample sample_entry(const Entry& entry, const Vec3& point, const Vec2& u, float w) const;
   LightSample sample_volume(const Entry& entry, const Vec3& point, const Vec2& u, float w) const;
   LightSample sample_environment(const Vec3& direction) const;
-  static Vec3 sky_radiance(const Light& light, float height);
-  static float sky_pdf(const Entry& entry, float height);
   static float spot_share(const Entry& entry, const Vec3& to_light);
   static float ellipsoid_pdf(const PlacedObject& placed, const Vec3& unit);
   static uint32_t choose(const std::vector<float>& cumulative, float& u);
+  /// Of a sun or a sky; refers to its entry.
+  static EnvironmentLight formula_of(const Entry& entry);
   /// Density of a direction by one of the lights far away.
   float entry_pdf(const Entry& entry, const Vec3& direction) const;
+  /// Chooses a triangle by `u`, which becomes uniform again within it, and gives what sample_area takes.
+  uint32_t choose_triangle(const Entry& entry, float& u, Vec3 (&corners)[3], float& density, float& side) const;
 
   const Geometry& geometry_;
   const Scene& scene_;
   std::vector<Environment> environments_;
   bool asks_shaders_ = false;
   std::vector<Entry> lights_;
-  std::vector<uint32_t> environment_; ///< lights that are sun or sky
+  std::vector<EnvironmentLight> formulas_; ///< sun and sky
+  std::vector<uint32_t> environment_;      ///< lights that are sun, sky or surroundings
+  bool formulas_only_ = true;
   std::vector<int32_t> light_of_object_;
   std::vector<Vec3> irradiance_; ///< of the skies, by the normal's y from -1 to 1
 };

@@ -16,9 +16,9 @@ float square(float x) { return x * x; }
 } // namespace
 
 Vec3 turned_to_viewer(const Vec3& normal, const Vec3& geometric_normal, const Vec3& out) {
-  float cosine = glm::dot(normal, out);
-  float least = std::min(0.02f, glm::dot(geometric_normal, out));
-  return cosine >= least ? normal : normalize_or(normal + out * (least - cosine), out);
+  auto lane = [](const Vec3& v) { return lanes::V3<float>{{v.x, v.y, v.z}}; };
+  lanes::V3<float> turned = turned_to_viewer(lane(normal), lane(geometric_normal), lane(out));
+  return {turned[0], turned[1], turned[2]};
 }
 
 Bsdf::Bsdf(const SurfaceValues& values, const Vec3& shading_normal, const Vec3& geometric_normal, const Vec3& out,
@@ -34,7 +34,7 @@ Bsdf::Bsdf(const SurfaceValues& values, const Vec3& shading_normal, const Vec3& 
   alpha_ = square(values.roughness);
   smooth_ = alpha_ < kSmoothAlpha;
   ng_dot_n_ = glm::dot(ng_, frame_.n);
-  if (ng_dot_n_ < 0.9999f) diffuse_scale_ = 1 / horizon_albedo(ng_dot_n_);
+  if (ng_dot_n_ < kNormalsAgree) diffuse_scale_ = 1 / horizon_albedo(ng_dot_n_);
   eta_ = ior_;
   if (glass_ > 0) {
     if (!smooth_) eta_ = std::max(eta_, 1 + kLeastIndexStep);
@@ -269,7 +269,7 @@ BsdfSample Bsdf::sample(float choice, const Vec2& u, uint8_t lobes) const {
   if (choice < p.mirror + p.diffuse) {
     sample.direction = frame_.to_world(sample_cosine_hemisphere(u));
     if (glm::dot(sample.direction, ng_) < 0) sample.direction = folded(sample.direction);
-    sample.spread = 0.3f;
+    sample.spread = kDiffuseSpread;
   } else if (p.facet > 0) {
     float within = std::clamp((choice - p.mirror - p.diffuse) / p.facet, 0.0f, 0x1.fffffep-1f);
     if (smooth_) return sample_smooth(p.facet, within);

@@ -13,13 +13,13 @@
 // takes on average.
 #pragma once
 
+#include "renderer/materials/diffuse.h"
 #include "renderer/materials/ggx.h"
 #include "renderer/math.h"
 
 namespace moonshade::renderer {
 
-/// The shading normal, turned just enough for the viewer in direction `out` to see its front; one that equals the
-/// geometric normal stays.
+/// diffuse.h's, of one normal.
 Vec3 turned_to_viewer(const Vec3& normal, const Vec3& geometric_normal, const Vec3& out);
 
 /// Values of one point's slots, in range.

@@ -62,11 +62,4 @@ float glass_albedo(float cosine, float alpha, float eta);
 /// towards the horizon (bsdf.cpp).
 float horizon_albedo(float cosine);
 
-/// Chiang et al. 2019: smooth towards the geometric horizon, 1 where both normals agree. `side` and `cosine` are the
-/// direction's cosines with the geometric and the shading normal, `between` that of both normals.
-inline float horizon_fade(float side, float cosine, float between) {
-  float s = std::min(1.0f, side / (cosine * std::max(between, 1e-4f)));
-  return -s * s * s + s * s + s;
-}
-
 } // namespace moonshade::renderer

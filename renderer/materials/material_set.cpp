@@ -11,6 +11,13 @@ namespace moonshade::renderer {
 namespace {
 
 /// Everything needed to load one material's shaders.
+void keep_in_range(Slot slot, float* values, size_t count) {
+  float low = slot == Slot::Ior ? 1.0f : 0.0f;
+  float high = slot == Slot::Emission ? std::numeric_limits<float>::max() : slot == Slot::Ior ? 100.0f : 1.0f;
+  for (size_t k = 0; k < count; ++k)
+    values[k] = std::min(std::max(values[k], low), high);
+}
+
 class MaterialLoader {
 public:
   MaterialLoader(const Material& material, ShaderSource& source, const std::map<std::string, std::string>& overrides)
@@ -181,6 +188,10 @@ std::string MaterialLoader::load(CompiledMaterial& compiled, std::string& warnin
   for (const auto& call : compiled.calls)
     if (call) compiled.needs |= call->needs();
   if (compiled.height) compiled.needs |= compiled.height->needs();
+  if (compiled.gradient && compiled.gradient->by_uv) compiled.needs |= channel_mask(kDpdu, 6);
+  for (size_t s = 0; s < kSlotCount; ++s)
+    for (int c = 0; c < 3; ++c)
+      keep_in_range(Slot(s), &compiled.constants[s][c], 1);
   return unknown_.empty() ? "" : unknown_.begin()->second;
 }
 
@@ -229,13 +240,6 @@ void run_slot(const EntryCall& call, ShadingBatch& batch, size_t begin, size_t c
   note_faults(call, codes, count, report, faults);
 }
 
-void keep_in_range(Slot slot, float* values, size_t count) {
-  float low = slot == Slot::Ior ? 1.0f : 0.0f;
-  float high = slot == Slot::Emission ? std::numeric_limits<float>::max() : slot == Slot::Ior ? 100.0f : 1.0f;
-  for (size_t k = 0; k < count; ++k)
-    values[k] = std::min(std::max(values[k], low), high);
-}
-
 } // namespace
 
 std::string MaterialSet::build(const Scene& scene, ShaderSource& source,
@@ -272,19 +276,15 @@ std::vector<uint8_t> MaterialSet::passable() const {
 
 void MaterialSet::shade(const CompiledMaterial& material, ShadingBatch& batch, size_t begin, size_t count,
                         FaultLog& faults) const {
-  std::fill_n(batch.faulted.begin() + long(begin), count, uint8_t(0));
   EntryCall::Inputs inputs = EntryCall::inputs_of(batch, begin);
   for (size_t s = 0; s < kSlotCount; ++s) {
+    const std::optional<EntryCall>& call = material.calls[s];
+    if (!call) continue;
     unsigned components = slot_infos()[s].components;
     float* out[3];
     for (unsigned c = 0; c < components; ++c)
       out[c] = batch.results[kResultOffset[s] + c].data() + begin;
-    if (const std::optional<EntryCall>& call = material.calls[s]) {
-      run_slot(*call, batch, begin, count, inputs, out, faults);
-    } else {
-      for (unsigned c = 0; c < components; ++c)
-        std::fill_n(out[c], count, material.constants[s][int(c)]);
-    }
+    run_slot(*call, batch, begin, count, inputs, out, faults);
     for (unsigned c = 0; c < components; ++c)
       keep_in_range(Slot(s), out[c], count);
   }

@@ -52,7 +52,7 @@ struct VolumeCalls {
 };
 
 struct CompiledMaterial {
-  std::array<Vec3, kSlotCount> constants;
+  std::array<Vec3, kSlotCount> constants; ///< in range
   std::array<std::optional<EntryCall>, kSlotCount> calls;
   std::optional<EntryCall> height;
   std::optional<VolumeCalls> volume; ///< then there is no surface
@@ -76,16 +76,20 @@ struct CompiledMaterial {
   bool passable() const {
     return volume || may_differ(Slot::Opacity, 1) || (thin && may_differ(Slot::Transmission, 0));
   }
-  bool may_differ(Slot slot, float value) const {
-    return calls[size_t(slot)].has_value() || constants[size_t(slot)].x != value;
+  /// Lambert's law and nothing else.
+  bool only_diffuse() const {
+    return !volume && !emits() && !may_differ(Slot::Reflectance, 0) && !may_differ(Slot::Metallic, 0) &&
+           !may_differ(Slot::Transmission, 0) && !may_differ(Slot::Opacity, 1) && !may_differ(Slot::Ior, 1);
   }
-};
-
-/// A surface point's bent normal, outward.
-struct BumpTarget {
-  const PlacedObject* placed;
-  SurfacePoint* point;
-  float footprint; ///< in units of p
+  bool has_shaders() const {
+    return height || std::any_of(calls.begin(), calls.end(), [](const auto& call) { return call.has_value(); });
+  }
+  bool may_differ(Slot slot, float value) const {
+    const Vec3& constant = constants[size_t(slot)];
+    bool same = constant.x == value &&
+                (slot_infos()[size_t(slot)].components == 1 || (constant.y == value && constant.z == value));
+    return calls[size_t(slot)].has_value() || !same;
+  }
 };
 
 class MaterialSet {
@@ -108,19 +112,11 @@ public:
   /// Lanes of the compiled shaders; 1 where there are none.
   unsigned width() const { return width_; }
 
-  /// Bends the normals of points [begin, begin + count), whose inputs stand in the batch, by the material's height.
-  /// A point where height faults keeps its normal.
-  void bend(const CompiledMaterial& material, ShadingBatch& batch, size_t begin, size_t count,
-            const BumpTarget* targets, FaultLog& faults) const;
-  /// Every slot of the points into the batch's results, with values kept in range; sets `faulted`.
+  /// Every slot of the points that a shader gives into the batch's results, with values kept in range; sets `faulted`
+  /// where it fails.
   void shade(const CompiledMaterial& material, ShadingBatch& batch, size_t begin, size_t count, FaultLog& faults) const;
 
 private:
-  void bend_by_gradient(const HeightGradient& gradient, ShadingBatch& batch, size_t begin, size_t count,
-                        const BumpTarget* targets, FaultLog& faults) const;
-  void bend_by_differences(const EntryCall& height, BumpMode mode, ShadingBatch& batch, size_t begin, size_t count,
-                           const BumpTarget* targets, FaultLog& faults) const;
-
   std::vector<CompiledMaterial> materials_;
   unsigned width_ = 1;
   bool any_passable_ = false;

@@ -13,13 +13,13 @@ static constexpr size_t kWideBlock = 1024;
 
 ShadingBatch::ShadingBatch(size_t capacity, double time, int64_t frame_number) : capacity(capacity) {
   for (auto& channel : inputs)
-    channel.resize(capacity);
+    channel.resize(capacity + 15); // written by 16 at a time
   for (auto& channel : results)
     channel.resize(capacity);
   for (auto& channel : scratch_inputs)
     channel.resize(capacity);
   for (auto& channel : heights)
-    channel.resize(capacity);
+    channel.resize(capacity + 15); // and read
   inputs[kTime].assign(capacity, float(time));
   frame.assign(capacity, frame_number);
   id.resize(capacity);

@@ -2,6 +2,7 @@
 // to one thread and is reused; nothing is allocated while rendering.
 #pragma once
 
+#include "renderer/materials/channels.h"
 #include "renderer/scene/scene.h"
 #include "runtime/shader.h"
 
@@ -12,21 +13,6 @@
 #include <vector>
 
 namespace moonshade::renderer {
-
-/// Float arrays of a batch's inputs. The components of a vector follow each other.
-enum Channel : uint8_t {
-  kLocal = 0,      // p
-  kWorld = 3,      // P
-  kNormal = 6,     // n
-  kGeometric = 9,  // ng
-  kIncident = 12,  // i
-  kUv = 15,        // uv
-  kDpdu = 17,      // dpdu
-  kDpdv = 20,      // dpdv
-  kFootprint = 23, // fw
-  kTime = 24,      // time
-  kChannelCount = 25
-};
 
 /// Float arrays of a batch's results, by slot; the components of a colour follow each other.
 inline constexpr std::array<uint8_t, kSlotCount> kResultOffset = {0, 3, 6, 7, 8, 11, 12, 13};

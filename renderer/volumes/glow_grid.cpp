@@ -1,5 +1,7 @@
 #include "renderer/volumes/glow_grid.h"
 
+#include "renderer/volumes/grid.h"
+
 #include <algorithm>
 
 namespace moonshade::renderer {
@@ -28,9 +30,7 @@ GlowGrid::Point GlowGrid::sample(const Vec2& u, float w) const {
   size_t index = size_t(found - cumulative_.begin());
   float below = index ? cumulative_[index - 1] : 0.0f, share = cumulative_[index] - below;
   float within = share > 0 ? std::clamp((u.x - below) / share, 0.0f, 1.0f) : 0.5f;
-  size_t row = index / size_t(size_[0]);
-  Vec3 at(float(index % size_t(size_[0])), float(row % size_t(size_[1])), float(row / size_t(size_[1])));
-  Vec3 local = low_ + cell_ * (at + Vec3(within, u.y, w));
+  Vec3 local = low_ + cell_ * (cell_corner(index, size_) + Vec3(within, u.y, w));
   return {Vec3(placed_.object->to_world * Vec4(local, 1)), density_[index]};
 }
 
@@ -65,7 +65,7 @@ GlowGrid::Line GlowGrid::line(const Vec3& from, const Vec3& direction) const {
   while (at < far) {
     int axis = next[0] <= next[1] && next[0] <= next[2] ? 0 : next[1] <= next[2] ? 1 : 2;
     float end = std::clamp(next[axis], at, far);
-    float density = density_[size_t((cell[2] * size_[1] + cell[1]) * size_[0] + cell[0])];
+    float density = density_[cell_index(cell, size_)];
     sum += density * (end - at) * (end * end + end * at + at * at) / 3;
     at = end;
     next[axis] += every[axis];

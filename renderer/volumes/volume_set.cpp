@@ -21,13 +21,10 @@ public:
         batch_(kBatch, scene.settings.time, scene.settings.frame) {}
 
   template <typename Visit> void look(const EntryCall& entry, uint32_t each, Visit visit) {
-    size_t count = size_t(size_[0]) * size_t(size_[1]) * size_t(size_[2]);
-    for (size_t cell = 0; cell < count; ++cell)
+    for (size_t cell = 0; cell < cell_count(size_); ++cell)
       for (uint32_t k = 0; k < each; ++k) {
         Sampler sampler(11, uint32_t(cell), k);
-        size_t row = cell / size_t(size_[0]);
-        Vec3 at(float(cell % size_t(size_[0])), float(row % size_t(size_[1])), float(row / size_t(size_[1])));
-        Vec3 local = low_ + cell_ * (at + Vec3(sampler.two(0), sampler.one(1)));
+        Vec3 local = low_ + cell_ * (cell_corner(cell, size_) + Vec3(sampler.two(0), sampler.one(1)));
         Vec3 world = Vec3(placed_.object->to_world * Vec4(local, 1));
         fill_volume_inputs(batch_, cells_.size(), local, world, Vec3(0, 0, 1), 0, id_);
         cells_.push_back(cell);
@@ -72,7 +69,7 @@ std::unique_ptr<GlowGrid> make_glow(const Scene& scene, const PlacedObject& plac
   if (!calls.glows()) return nullptr;
   int size[3];
   divide(extent, GlowGrid::kCells, size);
-  size_t count = size_t(size[0]) * size_t(size[1]) * size_t(size[2]);
+  size_t count = cell_count(size);
   std::vector<float> brightness(count, luminance(calls.emission_constant));
   if (calls.emission) {
     std::vector<double> sums(count, 0.0);
@@ -92,10 +89,7 @@ std::unique_ptr<GlowGrid> make_glow(const Scene& scene, const PlacedObject& plac
   // Of a sphere, cells of the corners hold nothing.
   if (placed.object->shape == Shape::Sphere)
     for (size_t k = 0; k < count; ++k) {
-      size_t row = k / size_t(size[0]);
-      Vec3 at(float(k % size_t(size[0])), float(row % size_t(size[1])), float(row / size_t(size[1])));
-      Vec3 a = low + extent * at / Vec3(size[0], size[1], size[2]);
-      Vec3 b = low + extent * (at + 1.0f) / Vec3(size[0], size[1], size[2]);
+      Vec3 cell = extent / Vec3(size[0], size[1], size[2]), a = low + cell * cell_corner(k, size), b = a + cell;
       if (glm::length(glm::clamp(Vec3(0), a, b)) > placed.object->radius) brightness[k] = 0;
     }
   double all = 0;
@@ -123,7 +117,7 @@ std::unique_ptr<Volume> make_volume(const Scene& scene, const PlacedObject& plac
     volume->cell[c] = extent[c] / float(volume->size[c]);
   volume->low = box.low;
   const int* n = volume->size;
-  std::vector<float> greatest(size_t(n[0]) * size_t(n[1]) * size_t(n[2]), material.volume->density_constant);
+  std::vector<float> greatest(cell_count(n), material.volume->density_constant);
   if (material.volume->density)
     Meter(scene, placed, id, volume->low, volume->cell, n)
         .look(*material.volume->density, kEach,
@@ -139,11 +133,12 @@ std::unique_ptr<Volume> make_volume(const Scene& scene, const PlacedObject& plac
       for (int x = 0; x < n[0]; ++x) {
         float most = 0;
         for (int k = 0; k < 27; ++k) {
-          int i = std::clamp(x + k % 3 - 1, 0, n[0] - 1), j = std::clamp(y + k / 3 % 3 - 1, 0, n[1] - 1),
-              l = std::clamp(z + k / 9 - 1, 0, n[2] - 1);
-          most = std::max(most, greatest[size_t((l * n[1] + j) * n[0] + i)]);
+          const int at[] = {std::clamp(x + k % 3 - 1, 0, n[0] - 1), std::clamp(y + k / 3 % 3 - 1, 0, n[1] - 1),
+                            std::clamp(z + k / 9 - 1, 0, n[2] - 1)};
+          most = std::max(most, greatest[cell_index(at, n)]);
         }
-        volume->controls[size_t((z * n[1] + y) * n[0] + x)] = std::max(Volume::kSafety * most, least);
+        const int here[] = {x, y, z};
+        volume->controls[cell_index(here, n)] = std::max(Volume::kSafety * most, least);
       }
   volume->glow = make_glow(scene, placed, id, *material.volume, box.low, extent);
   return volume;

@@ -7,33 +7,12 @@
 #include "renderer/geometry/geometry.h"
 #include "renderer/materials/material_set.h"
 #include "renderer/volumes/glow_grid.h"
+#include "renderer/volumes/grid.h"
+#include "renderer/volumes/media.h"
 
 #include <memory>
 
 namespace moonshade::renderer {
-
-/// Volumes that a point is in, by object. Where they overlap, the one that comes last in the scene counts.
-struct Media {
-  static constexpr uint32_t kNone = UINT32_MAX;
-  uint32_t ids[4] = {kNone, kNone, kNone, kNone};
-
-  void cross(uint32_t id, bool entering) {
-    for (uint32_t& slot : ids)
-      if (slot == id) slot = kNone;
-    if (!entering) return;
-    for (uint32_t& slot : ids)
-      if (slot == kNone) {
-        slot = id;
-        return;
-      }
-  }
-  uint32_t active() const {
-    uint32_t found = kNone;
-    for (uint32_t slot : ids)
-      if (slot != kNone && (found == kNone || slot > found)) found = slot;
-    return found;
-  }
-};
 
 struct Volume {
   static constexpr float kSafety = 1.25f; ///< a control over the greatest density seen
@@ -43,7 +22,7 @@ struct Volume {
   std::vector<float> controls;
   std::unique_ptr<GlowGrid> glow; ///< null: emits nothing
 
-  size_t index(const int* at) const { return size_t((at[2] * size[1] + at[1]) * size[0] + at[0]); }
+  size_t index(const int* at) const { return cell_index(at, size); }
 };
 
 class VolumeSet {

@@ -1,0 +1,41 @@
+// The state of one path of a wavefront.
+#pragma once
+
+#include "renderer/geometry/geometry.h"
+#include "renderer/sampling/sampler.h"
+#include "renderer/volumes/media.h"
+
+namespace moonshade::renderer {
+
+/// What every vertex changes comes first: one line of the cache.
+struct alignas(64) Path {
+  Ray ray;
+  Vec3 throughput{1};
+  float pdf = 0; ///< of the direction, by the surface it comes from
+  Vec3 radiance{0};
+  float eta2 = 1; ///< by which the throughput was divided at interfaces
+
+  Sampler sampler;
+  Vec3 from{0};          ///< where the direction was drawn: the origin, but for sheets passed since
+  float travelled = 0;   ///< from there to the origin
+  float width = 0;       ///< of the footprint at the ray's origin
+  float spread = 0;      ///< its growth per distance
+  uint32_t segments = 0; ///< rays so far
+  uint32_t bounces = 0;  ///< vertices at which the direction changed
+  bool mirror = true;    ///< no light sampling could have found what this ray finds
+  bool alive = true;
+  bool faulted = false;
+  Media media{};
+};
+static_assert(sizeof(Path) == 128);
+
+/// Numbers drawn at one vertex. Dimension 0 is the place in the pixel, 1 that on the lens.
+enum Draw : uint32_t { kLightChoice, kLightPoint, kLobe, kDirection, kRoulette, kOpacity, kDrawCount };
+inline constexpr uint32_t kLensDimension = 1;
+/// `segments` counts the ray that led to the vertex.
+inline uint32_t dimension_of(uint32_t segments, Draw draw) { return 1 + segments * kDrawCount + draw; }
+
+/// Bounces from which chance ends paths.
+inline constexpr uint32_t kRouletteFrom = 5;
+
+} // namespace moonshade::renderer
