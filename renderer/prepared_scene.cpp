@@ -72,8 +72,8 @@ Preparation prepare(Scene scene, ShaderSource& shaders, const Overrides& overrid
   if (!prepared->geometry) return result.machine_at_fault = true, std::move(result);
   prepared->volumes = std::make_unique<VolumeSet>(prepared->scene, *prepared->geometry, prepared->materials);
   prepared->lights = std::make_unique<LightSet>(
-      prepared->scene, *prepared->geometry, measure_emission(prepared->scene, *prepared->geometry, prepared->materials),
-      std::move(environments));
+      prepared->scene, *prepared->geometry, *prepared->volumes,
+      measure_emission(prepared->scene, *prepared->geometry, prepared->materials), std::move(environments));
   result.prepared = std::move(prepared);
   return result;
 }

@@ -53,13 +53,13 @@ public:
         crop_(options.crop.value_or(Crop{0, 0, settings_.width, settings_.height})),
         order_(pixel_order(crop_, settings_, options.noise <= 0)),
         film_(std::make_unique<Film>(crop_.width, crop_.height, contents(options))),
-        adaptive_(crop_.width, crop_.height, options.noise),
+        adaptive_(crop_.width, crop_.height, options.noise), controls_(*scene.volumes),
         concurrency_(tbb::global_control::max_allowed_parallelism, concurrency_for(options.threads)),
         arena_(options.threads ? int(options.threads) : tbb::task_arena::automatic),
         start_(std::chrono::steady_clock::now()) {
     pass_samples_ = uint32_t(std::clamp<size_t>(kPassPaths / order_.size(), 1, 8));
     if (PassSetup::needed(settings_.integrator)) {
-      setup_ = std::make_unique<PassSetup>(scene, arena_);
+      setup_ = std::make_unique<PassSetup>(scene, controls_, arena_);
       if (settings_.integrator == IntegratorKind::Sppm) pass_samples_ = 1; // each sample has photons of its own
     }
     make_groups();
@@ -83,6 +83,7 @@ public:
       if (options_.noise > 0) samples = std::min(samples, Adaptive::to_next_decision(film_->samples()));
       if (!pass(film_->samples(), samples)) break;
       add_to_film(samples);
+      controls_.raise();
       collect();
       if (options_.noise > 0 && Adaptive::is_decision(film_->samples())) {
         adaptive_.decide(*film_);
@@ -109,6 +110,7 @@ public:
     for (auto [data, size] : film_->blocks())
       archive.bytes(data, size);
     adaptive_.exchange(archive);
+    controls_.exchange(archive);
     double spent = seconds();
     archive.value(spent);
     if (archive.reading()) earlier_seconds_ = spent;
@@ -177,7 +179,7 @@ private:
       }
       DefaultFloatEnvironment environment;
       auto& worker = workers_[size_t(tbb::this_task_arena::current_thread_index())];
-      if (!worker) worker = std::make_unique<Wavefront>(scene_, kBatchPaths);
+      if (!worker) worker = std::make_unique<Wavefront>(scene_, controls_, kBatchPaths);
       uint64_t rays_before = worker->stats().rays;
       const Piece &piece = pieces_[index], &next = pieces_[index + 1];
       size_t begin = piece.pixel, end = next.pixel, at = begin * samples;
@@ -278,6 +280,7 @@ private:
   std::vector<Piece> pieces_; ///< where tasks begin, and the end
   std::unique_ptr<Film> film_;
   Adaptive adaptive_;
+  VolumeControls controls_;
   tbb::global_control concurrency_; ///< more threads than cores, where asked for
   tbb::task_arena arena_;
   std::chrono::steady_clock::time_point start_;

@@ -8,7 +8,10 @@
 #include "compiler/syntax/ast.h"
 #include "runtime/frontend_parts.h"
 #include "runtime/gradients.h"
+#include "runtime/image_set.h"
+#include "runtime/parameters.h"
 #include "runtime/stopwatch.h"
+#include "stdlib/sums.h"
 
 #include <algorithm>
 #include <sstream>
@@ -33,8 +36,29 @@ CheckedShader::CheckedShader(const std::string& name, const std::string& text, c
       parts_->modules.push_back({module, chunk});
       return {chunk, ""};
     };
+  options.load_library = [&] {
+    const FileId file = parts_->sources.add("moonshade/sums.lua", std::string(library_lua()));
+    parts_->library = syntax::parse(parts_->sources, file, parts_->arena, parts_->diagnostics);
+    return parts_->library;
+  };
   parts_->program = sema::check(*parts_->chunk, options, parts_->diagnostics);
+  for (ImageInfo& image : parts_->program.info.images) {
+    const LineColumn place = parts_->sources.position(image.span.file, image.span.begin);
+    image.from = parts_->sources.name(image.span.file);
+    image.line = place.line;
+    image.column = place.column;
+  }
   parts_->sema_milliseconds = watch.lap();
+}
+
+void CheckedShader::check_images(const ImageOpener& opener) {
+  if (!ok()) return;
+  for (const ImageInfo& image : parts_->program.info.images) {
+    if (image.parameter) continue; // what it names shows when it has a value
+    const OpenedImage opened = opener(image.file, image.from, image.raw);
+    if (opened.image == nullptr)
+      parts_->diagnostics.report(DiagnosticCode::ImageNotFound, image.span, {image.file, opened.error});
+  }
 }
 
 CheckedShader CheckedShader::parsed(const std::string& name, const std::string& text) {
@@ -59,6 +83,13 @@ const ShaderInfo& CheckedShader::info() const { return parts_->program.info; }
 const Diagnostics& CheckedShader::diagnostics() const { return parts_->diagnostics; }
 const SourceSet& CheckedShader::sources() const { return parts_->sources; }
 
+std::vector<std::string> CheckedShader::files() const {
+  std::vector<std::string> files;
+  for (FileId file = 0; file < parts_->sources.size(); ++file)
+    if (parts_->library == nullptr || parts_->library->file != file) files.emplace_back(parts_->sources.name(file));
+  return files;
+}
+
 CompileTimes CheckedShader::times() const {
   CompileTimes times;
   times.parse = parts_->parse_milliseconds;
@@ -70,9 +101,22 @@ CompileTimes CheckedShader::times() const {
 ir::Module build_module(const CheckedShader& shader, const CompileOptions& options) {
   ir::Module module = build_printing_module(shader, options);
   ir::remove_prints(module);
+  if (std::string error = optimize_module(module, shader.info(), options); !error.empty())
+    module.problems.push_back(std::move(error));
+  return module;
+}
+
+std::string optimize_module(ir::Module& module, const ShaderInfo& info, const CompileOptions& options) {
+  std::vector<Constant> values;
+  if (options.bake)
+    if (std::string error = parameter_values(info, options.baked, values); !error.empty()) return error;
   // At every level: which products and sums become one operation is part of what f32 means.
   ir::optimize(module, options.precision);
-  return module;
+  if (!options.bake) return {};
+  for (size_t i = 0; i < values.size(); ++i)
+    values[i] = stored_value(info.parameters[i], values[i]);
+  ir::bake_parameters(module, values);
+  return {};
 }
 
 ir::Module build_printing_module(const CheckedShader& shader, const CompileOptions& options) {
@@ -90,6 +134,20 @@ codegen::Options codegen_options(const CompileOptions& options) {
   return {options.precision, options.width, options.optimization, options.cpu, options.target, options.uniform_inputs};
 }
 
+codegen::Options jit_options(const CompileOptions& options) {
+  codegen::Options result = codegen_options(options);
+  using codegen::LibraryCalls;
+  result.library_calls = options.optimization > 2   ? LibraryCalls::None
+                         : options.optimization > 1 ? LibraryCalls::Large
+                                                    : LibraryCalls::All;
+  return result;
+}
+
+void make_quick(codegen::Options& options) {
+  options.optimization = 0;
+  options.library_calls = codegen::LibraryCalls::All;
+}
+
 FaultSite resolve(const SourceSet& sources, const codegen::FaultPlaceInfo& place) {
   if (!place.span.has_place()) return {"", 0, 0, place.message};
   const LineColumn position = sources.position(place.span.file, place.span.begin);
@@ -99,6 +157,16 @@ FaultSite resolve(const SourceSet& sources, const codegen::FaultPlaceInfo& place
 ShaderInfo compiled_info(const ShaderInfo& info, const ir::Module& module, const CompileOptions& options) {
   ShaderInfo compiled = info;
   compiled.entries.clear();
+  if (options.bake) {
+    for (ImageInfo& image : compiled.images) {
+      if (!image.parameter) continue;
+      const ParameterInfo& parameter = info.parameters[*image.parameter];
+      const auto given = options.baked.find(parameter.name);
+      image.file = std::get<std::string>(given != options.baked.end() ? given->second : parameter.default_value);
+      image.parameter.reset();
+    }
+    compiled.parameters.clear();
+  }
   for (const ir::Entry& entry : module.entries)
     compiled.entries.push_back(entry_info(entry.name, info, options));
   return compiled;
@@ -145,6 +213,11 @@ Emission emit(const CheckedShader& shader, Stage stage, const CompileOptions& op
   }
   if (!shader.ok()) {
     emission.error = "the shader has errors";
+    return emission;
+  }
+  if ((stage == Stage::Object || stage == Stage::Header) && !shader.info().images.empty()) {
+    const ImageInfo& image = shader.info().images.front();
+    emission.error = describe_image_error(image, image.file, "an object has no host that opens images");
     return emission;
   }
   Stopwatch watch;

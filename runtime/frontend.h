@@ -21,11 +21,15 @@ public:
   /// Parsed alone, for Stage::Ast: all of Lua is `ok()`, whatever the dialect leaves out.
   static CheckedShader parsed(const std::string& name, const std::string& text);
 
+  /// Reports the constant images that cannot be opened, as errors at their names.
+  void check_images(const ImageOpener& opener);
+
   bool ok() const; ///< no error was reported
   const ShaderInfo& info() const;
   const Diagnostics& diagnostics() const;
   const SourceSet& sources() const;
-  CompileTimes times() const; ///< of parse and sema
+  std::vector<std::string> files() const; ///< that it was read from: its own, and its modules'
+  CompileTimes times() const;             ///< of parse and sema
 
   struct Parts; ///< arena, chunk, sema's program: for the runtime itself
   const Parts& parts() const { return *parts_; }

@@ -20,7 +20,8 @@ struct CheckedShader::Parts {
     std::string name;
     syntax::Chunk* chunk;
   };
-  std::vector<Module> modules; ///< that the shader requires, in the order of their loading
+  std::vector<Module> modules;      ///< that the shader requires, in the order of their loading
+  syntax::Chunk* library = nullptr; ///< the library's own Lua, where the shader calls some of it
   sema::Program program;
   double parse_milliseconds = 0, sema_milliseconds = 0;
 };
@@ -29,10 +30,17 @@ struct CheckedShader::Parts {
 ir::Module build_module(const CheckedShader& shader, const CompileOptions& options);
 /// The same before it is optimised, with its prints.
 ir::Module build_printing_module(const CheckedShader& shader, const CompileOptions& options);
+/// Optimises what build_printing_module gave; with CompileOptions::bake the parameters are constants then. Gives the
+/// error of a value that does not fit its parameter.
+std::string optimize_module(ir::Module& module, const ShaderInfo& info, const CompileOptions& options);
 /// The shader's facts, with the entries of the module, in its order.
 ShaderInfo compiled_info(const ShaderInfo& info, const ir::Module& module, const CompileOptions& options);
 /// A fault site's place in the source.
 FaultSite resolve(const SourceSet& sources, const codegen::FaultPlaceInfo& place);
 codegen::Options codegen_options(const CompileOptions& options);
+/// The same for code that runs in this process.
+codegen::Options jit_options(const CompileOptions& options);
+/// For code that is to be there soon, whatever its speed; of the same bits and the same width.
+void make_quick(codegen::Options& options);
 
 } // namespace moonshade

@@ -81,8 +81,9 @@ public:
   }
 
   bool has_prints() const override {
-    const auto prints = [](const InterpretSource::File& file) { return file.text.find("print") != std::string::npos; };
-    return std::ranges::any_of(source_.files, prints);
+    for (size_t i = 0; i < source_.files.size(); ++i)
+      if ((i == 0 || i != source_.library) && source_.files[i].text.find("print") != std::string::npos) return true;
+    return false;
   }
 
   void print(size_t entry, const Batch& batch, uint64_t point, const PrintSink& sink) const override {
@@ -203,6 +204,13 @@ Instantiation interpret(const CheckedShader& shader, const std::map<std::string,
   add("", FileId{0});
   for (const auto& module : shader.parts().modules)
     add(module.name, module.chunk->file);
+  if (const syntax::Chunk* library = shader.parts().library) {
+    // Its loops count, its calls do not.
+    source.library = uint32_t(source.files.size());
+    const std::string text(shader.sources().text(library->file));
+    source.files.push_back({"", std::string(shader.sources().name(library->file)), text,
+                            unguarded ? text : counted_text("", text, CountedSteps::Loops)});
+  }
   source.info = shader.info();
   source.step_limit = options.step_limit;
   source.impatient = options.impatient;
@@ -215,9 +223,17 @@ Instantiation interpret(const CheckedShader& shader, const std::map<std::string,
     if (!checked.error.empty()) return {nullptr, checked.error};
     source.parameters.emplace(name, std::move(checked.value));
   }
+  std::vector<Constant> values;
+  for (const ParameterInfo& parameter : source.info.parameters) {
+    const auto given = source.parameters.find(parameter.name);
+    values.push_back(given == source.parameters.end() ? parameter.default_value : given->second);
+  }
+  std::string error;
+  source.images = ImageSet::open(source.info, values, options.images, error);
+  if (source.images == nullptr) return {nullptr, error};
   auto interpreted = std::make_shared<InterpretedShader>(std::move(source));
   DefaultFloatingPoint environment;
-  if (std::string error = interpreted->start(); !error.empty()) return {nullptr, error};
+  if (error = interpreted->start(); !error.empty()) return {nullptr, error};
   return {interpreted, ""};
 }
 

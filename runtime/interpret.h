@@ -20,6 +20,8 @@ struct InterpretOptions {
   /// Once many points have met the limit, what a point may take falls to some times what points took that ended: an
   /// endless shader then faults at every point, but soon.
   bool impatient = false;
+  /// Opens the shader's images.
+  ImageOpener images = {};
 };
 
 /// Loads a checked shader into stock Lua. run() serves any number of threads: each call borrows a Lua state of its own.

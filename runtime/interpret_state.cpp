@@ -3,7 +3,9 @@
 // to.
 #include "runtime/interpret_state.h"
 
+#include "stdlib/lua_images.h"
 #include "stdlib/lua_module.h"
+#include "stdlib/lua_sums.h"
 #include "stdlib/lua_vector.h"
 
 #include <cmath>
@@ -174,6 +176,16 @@ int counted_derivative(lua_State* lua) {
   return 1;
 }
 
+/// For the module's texture, by the path of compiled code. `context`: the InterpretSource.
+const char* look_up_image(const void* context, const char* file, unsigned from, bool raw, const double* at,
+                          double* rgba) {
+  const auto& source = *static_cast<const InterpretSource*>(context);
+  const size_t image = source.images->find(file, source.files[from].name, raw);
+  if (image == source.images->size()) return "the shader does not name it";
+  source.images->look_up(image, 1, 4, nullptr, at, rgba);
+  return nullptr;
+}
+
 // ---- errors of Lua's own -------------------------------------------------------------------------------------------
 
 /// Of a vector's component that there is not: the index may be no integer at all.
@@ -252,10 +264,23 @@ void load_file(lua_State* lua, uint32_t file) {
   const std::string& text = record_of(lua).source->files[file].loaded;
   char name[16];
   std::snprintf(name, sizeof name, "=%u", file);
-  if (luaL_loadbufferx(lua, text.data(), text.size(), name, "t") == LUA_OK) return;
-  record_of(lua).loads = false;
-  record_of(lua).file = file;
-  lua_error(lua);
+  if (luaL_loadbufferx(lua, text.data(), text.size(), name, "t") != LUA_OK) {
+    record_of(lua).loads = false;
+    record_of(lua).file = file;
+    lua_error(lua);
+  }
+  if (file == 0 || record_of(lua).source->images->size() == 0) return;
+  // The names of images in a module begin in its own folder: globals as they are, but for a texture of its own.
+  lua_newtable(lua);
+  push_texture(lua, file);
+  lua_setfield(lua, -2, "texture");
+  lua_createtable(lua, 0, 2);
+  for (const char* field : {"__index", "__newindex"}) {
+    lua_pushglobaltable(lua);
+    lua_setfield(lua, -2, field);
+  }
+  lua_setmetatable(lua, -2);
+  lua_setupvalue(lua, -2, 1);
 }
 
 /// As Lua's own: runs the file once, and keeps its first result.
@@ -377,16 +402,24 @@ bool InterpretState::load(std::string& error) {
   }
   *static_cast<Record**>(lua_getextraspace(lua_)) = record_.get();
   record_->source = &source_;
+  images_ = {&source_, look_up_image};
   lua_pushcfunction(lua_, note_error);
   // Everything that can raise an error, out of memory included, happens inside a protected call.
   lua_pushcfunction(lua_, [](lua_State* lua) {
-    const auto& source = *static_cast<const InterpretSource*>(lua_touserdata(lua, 1));
+    const auto& state = *static_cast<const InterpretState*>(lua_touserdata(lua, 1));
+    const InterpretSource& source = state.source_;
     open_basics(lua);
     open_math(lua);
     luaL_requiref(lua, "moonshade", luaopen_moonshade, 0);
     lua_pop(lua, 1);
     open_steps(lua);
     open_derivatives(lua);
+    set_images(lua, &state.images_);
+    if (source.library != 0) {
+      char name[16];
+      std::snprintf(name, sizeof name, "=%u", source.library);
+      load_sums(lua, source.files[source.library].loaded, name);
+    }
     for (const auto& [name, value] : source.parameters) {
       push_constant(lua, value);
       override_parameter(lua, name.c_str());
@@ -399,7 +432,7 @@ bool InterpretState::load(std::string& error) {
       lua_getglobal(lua, entry.name.c_str());
     return int(source.info.entries.size());
   });
-  lua_pushlightuserdata(lua_, const_cast<InterpretSource*>(&source_));
+  lua_pushlightuserdata(lua_, this);
   start_counting(source_.step_limit);
   if (protected_call(lua_, 1, LUA_MULTRET) == LUA_OK) return lua_checkstack(lua_, 200);
   // What the parser takes and Lua does not exceeds one of Lua's capacities (locals, upvalues, nesting).

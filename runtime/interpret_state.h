@@ -1,8 +1,10 @@
 // One sandboxed Lua state that holds one loaded shader.
 #pragma once
 
+#include "runtime/image_set.h"
 #include "runtime/interpret_fault.h"
 #include "runtime/shader.h"
+#include "stdlib/lua_images.h"
 
 #include <cstdint>
 #include <map>
@@ -23,8 +25,10 @@ struct InterpretSource {
     std::string loaded; ///< what Lua is given: the text, with counted steps where they are to be counted
   };
   std::vector<File> files; ///< the shader first, then what it requires
+  uint32_t library = 0;    ///< the library's own Lua among them; 0: the shader calls none of it
   ShaderInfo info;
   std::map<std::string, Constant> parameters; ///< overrides, checked
+  std::shared_ptr<const ImageSet> images;
   uint64_t step_limit = 0;
   bool impatient = false;
 };
@@ -59,6 +63,7 @@ private:
 
   const InterpretSource& source_;
   std::unique_ptr<Record> record_; // at a fixed address: the Lua state points to it
+  LuaImages images_ = {};
   lua_State* lua_ = nullptr;
 };
 

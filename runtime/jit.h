@@ -1,6 +1,7 @@
-// Machine code in this process: an object file made by codegen, linked by ORC. Each has a session of its own.
+// Machine code in this process: an object file made by codegen, linked by JITLink. Each has memory of its own.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <string>
 
@@ -8,8 +9,9 @@ namespace moonshade {
 
 class JitCode {
 public:
-  /// Links the object file; what it needs from outside are the library's externals and the batch driver's functions.
-  static JitCode load(std::string object);
+  /// Links the object file; what it needs from outside are the library's externals, its machine code, and the batch
+  /// driver's functions.
+  static JitCode load(const std::string& object);
   ~JitCode();
   JitCode(JitCode&&) noexcept;
   JitCode& operator=(JitCode&&) noexcept;
@@ -19,9 +21,11 @@ public:
   void* function(const std::string& symbol) const;
 
 private:
-  struct Session;
+  struct Memory;
+  class Context;
   JitCode();
-  std::unique_ptr<Session> session_;
+  std::unique_ptr<Memory> memory_;
+  std::map<std::string, void*> functions_;
   std::string error_;
 };
 

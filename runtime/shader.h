@@ -12,6 +12,7 @@
 
 #include "compiler/base/fault.h"
 #include "compiler/sema/shader_info.h"
+#include "runtime/image.h"
 #include "stdlib/library.h"
 
 #include <cstddef>
@@ -48,6 +49,46 @@ using ModuleReader = std::function<ModuleText(const std::string& name)>;
 /// Looks for patterns/stone.lua in these folders, in this order. Nothing outside of them is read.
 ModuleReader folder_modules(std::vector<std::string> folders);
 
+/// Compiled code on disk, for later compilations of the same text with the same options, by this process or others that
+/// use the same build of this library on the same kind of processor. Any number of processes and threads may share a
+/// folder. What is damaged, or could have been written by somebody else, is compiled anew; a folder that cannot be
+/// written is a cache that keeps nothing.
+class ObjectCache;
+/// Null for an empty folder. The folder is made when something is stored; what was used longest ago goes when it holds
+/// more than `limit` bytes.
+std::shared_ptr<ObjectCache> open_object_cache(const std::string& folder, uint64_t limit = uint64_t{256} << 20);
+/// $XDG_CACHE_HOME/moonshade or ~/.cache/moonshade; empty where neither is known.
+std::string default_cache_folder();
+struct CacheCounts {
+  uint64_t hits = 0, misses = 0;
+  uint64_t rejected = 0; ///< misses that found something which could not be trusted
+  uint64_t stored = 0;
+};
+CacheCounts cache_counts(const ObjectCache& cache);
+
+/// Optimises programs while they are used already (CompileOptions::background), on a thread of its own, in the order in
+/// which they came.
+class BackgroundCompiler {
+public:
+  /// Without a thread, programs wait for run_one().
+  explicit BackgroundCompiler(bool with_thread = true);
+  /// Ends what is at work; programs that still wait stay as they are.
+  ~BackgroundCompiler();
+  BackgroundCompiler(const BackgroundCompiler&) = delete;
+  BackgroundCompiler& operator=(const BackgroundCompiler&) = delete;
+
+  /// Waits until nothing is left to do; with a thread only.
+  void wait();
+  /// Optimises the next program on this thread; false where none waits.
+  bool run_one();
+
+  struct State;
+  State& state() { return *state_; }
+
+private:
+  std::unique_ptr<State> state_;
+};
+
 struct CompileOptions {
   Precision precision = Precision::F32;
   /// Lanes: 1, 4, 8, 16 or 32; 0 = the best for the target.
@@ -56,7 +97,7 @@ struct CompileOptions {
   ModuleReader modules;
   /// As clang's -O0 to -O3.
   int optimization = 2;
-  /// "native" or a CPU name of LLVM's; other than native only for emitting text.
+  /// "native" or a CPU name of LLVM's: to run, one of which this machine has all features.
   std::string cpu = "native";
   /// A target triple; empty = this machine's; other than that only for emitting text.
   std::string target;
@@ -71,6 +112,17 @@ struct CompileOptions {
   /// Entries to add; those of functions that the shader does not have are left out, and of functions that differentiate
   /// as often as there are derivatives. (Compiled code only.)
   std::vector<Gradient> gradients;
+  /// Opens the images that the shader looks up, for each of its instances; empty: a shader with images has none.
+  ImageOpener images;
+  /// Compile the parameters as constants: these values, and defaults where none is given. The program has no parameters
+  /// then, and gives what it would with these.
+  bool bake = false;
+  std::map<std::string, Constant> baked = {};
+  /// Null: every compilation compiles.
+  std::shared_ptr<ObjectCache> cache = {};
+  /// Not null: compile() gives quickly made code, which is replaced by optimised code of the same bits as soon as this
+  /// has made it; what is in the cache is optimised at once. At levels 0 and 1 all code is made quickly.
+  std::shared_ptr<BackgroundCompiler> background = {};
 };
 
 /// Faults of one call of Shader::run. Plain data; the caller sets it to zero (or {}) before the call.
@@ -137,6 +189,9 @@ struct Instantiation {
 /// Milliseconds of each stage of one compilation.
 struct CompileTimes {
   double parse = 0, sema = 0, ir = 0, emit = 0, optimize = 0, codegen = 0, total = 0;
+  double cache = 0;    ///< look-up, and where it was of use taking over what it holds
+  bool cached = false; ///< the code is from the cache
+  bool quick = false;  ///< these are the times of quickly made code (CompileOptions::background)
 };
 
 /// Compiled code for one shader, without values of its parameters.
@@ -146,6 +201,8 @@ public:
   virtual const ShaderInfo& info() const = 0;
   virtual unsigned width() const = 0;
   virtual const CompileTimes& times() const = 0;
+  /// Whether its code is still what was made quickly (CompileOptions::background).
+  virtual bool is_quick() const = 0;
   /// Sets parameters (defaults where not given) and runs the top level. Compiles nothing.
   virtual Instantiation instantiate(const std::map<std::string, Constant>& parameters) const = 0;
 };

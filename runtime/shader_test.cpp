@@ -67,6 +67,37 @@ TEST(CompiledShader, TakesParametersWithoutCompilingAgain) {
   EXPECT_EQ(value({{"tint", std::vector<double>{1, 2, 3}}}), 4 + 3 + 2.0f);
 }
 
+TEST(CompiledShader, RunsCodeForALesserProcessorAndRefusesWhatCannotRun) {
+  const std::string text = "function height(p) return perlin(p * 3.7) + noise(p) + worley(p) end";
+  CompileOptions options;
+  std::vector<float> points;
+  for (int i = 0; i < 200; ++i)
+    points.push_back(static_cast<float>(i) * 0.173F - 17);
+  const std::vector<float> native = shade(*instance(text, options), points);
+#if defined(__x86_64__)
+  options.cpu = "x86-64-v2";
+  EXPECT_EQ(shade(*instance(text, options), points), native);
+  if (__builtin_cpu_supports("avx2") != 0) {
+    options.cpu = "haswell";
+    EXPECT_EQ(shade(*instance(text, options), points), native);
+  }
+  options.target = "aarch64-linux-gnu";
+  options.cpu = "generic";
+#else
+  options.target = "x86_64-linux-gnu";
+  options.cpu = "x86-64";
+#endif
+  EXPECT_THAT(compile("test.lua", text, options).diagnostics, HasSubstr("does not run on this machine"));
+}
+
+TEST(CompiledShader, ChoosesTheWidthByTheLengthOfTheCode) {
+  const unsigned native = native_width(Precision::F32);
+  if (native < 8) GTEST_SKIP() << "one register a value everywhere";
+  EXPECT_EQ(compiled("function height(p) return noise(p) end")->width(), 2 * native);
+  EXPECT_EQ(compiled("function height(p) return noise(p) + perlin(p) + worley(p) + fbm(p) + gabor(p) end")->width(),
+            native);
+}
+
 TEST(CompiledShader, RefusesParametersByName) {
   const auto program = compiled(R"(
     local scale = param("scale", 2.0, { min = 0, max = 10 })

@@ -1,6 +1,6 @@
 -- cloud.lua: weather in a thin shell around a planet of radius 1
-local cover   = param("cover", 0.45, { min = 0, max = 1, doc = "share of the sky that is overcast" })
-local density_ = param("thickness", 100, { min = 0, max = 5000, doc = "extinction of the densest cloud" })
+local cover     = param("cover", 0.46, { min = 0, max = 1, doc = "share of the sky that is overcast" })
+local thickness = param("thickness", 130, { min = 0, max = 5000, doc = "extinction of the densest cloud" })
 
 local FLOOR <const> = 1.012
 local TOP   <const> = 1.05
@@ -15,8 +15,8 @@ function density(p)
   q = q + 0.5 * vec3(noise(q * 1.7), noise(q * 1.7 + 31), noise(q * 1.7 + 67))
   local weather = 0.5 + 0.5 * fbm(q, 6) - (1 - cover) * 0.62
   local shape = weather - 0.35 * abs(height - 0.35) + 0.10 * noise(p * 28)
-  return density_ * smoothstep(0.12, 0.42, shape)
+  return thickness * smoothstep(0.10, 0.46, shape)
 end
 
-function color(p) return rgb(0.995, 0.995, 0.995) end
-function anisotropy() return 0.55 end
+function color(p) return rgb(0.99) end
+function anisotropy() return 0.4 end

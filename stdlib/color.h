@@ -19,13 +19,31 @@ template <class L> MS_INLINE L weighted(const Vec<3, L>& v, double a, double b, 
 
 template <class L> MS_INLINE L luminance(Vec<3, L> rgb) { return weighted(rgb, 0.2126, 0.7152, 0.0722); }
 
+/// factor (scale (x + offset))^exponent + rest. Floats go through doubles, so that neither the exponent nor what stands
+/// about the power rounds before the end.
+struct PowerCurve {
+  double offset, scale, exponent, factor, rest;
+};
+template <class L> MS_INLINE L power_curve(L x, const PowerCurve& c) {
+  if constexpr (is_dual<L>) {
+    const PowerCurve slope = {c.offset, c.scale, c.exponent - 1, c.factor * c.scale * c.exponent, 0};
+    return chain<L>(power_curve(x.v, c), x, power_curve(x.v, slope));
+  } else if constexpr (is_f32<L>) {
+    using D = Wide<double, width_of<L>>;
+    D power = f32::power_of_double((convert<D>(x) + constant<D>(c.offset)) * constant<D>(c.scale), c.exponent);
+    return convert<L>(fused(power, c.factor, c.rest));
+  } else {
+    return madd(pow((x + constant<L>(c.offset)) * constant<L>(c.scale), constant<L>(c.exponent)), c.factor, c.rest);
+  }
+}
+
 /// Both lines go on below 0 and above 1.
 template <class L> MS_INLINE L srgb2linear(L x) {
-  L curve = pow((x + constant<L>(0.055)) * constant<L>(1 / 1.055), constant<L>(2.4));
+  L curve = power_curve(x, {0.055, 1 / 1.055, 2.4, 1, 0});
   return select(less(constant<L>(0.04045), x), curve, x * constant<L>(1 / 12.92));
 }
 template <class L> MS_INLINE L linear2srgb(L x) {
-  L curve = madd(pow(x, constant<L>(1 / 2.4)), 1.055, -0.055);
+  L curve = power_curve(x, {0, 1, 1 / 2.4, 1.055, -0.055});
   return select(less(constant<L>(0.0031308), x), curve, x * constant<L>(12.92));
 }
 

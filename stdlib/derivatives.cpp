@@ -1,5 +1,6 @@
 // derivatives.def as data. Which entries of a derivative are zero for every argument is found by running its body once.
 #include "stdlib/derivative.h"
+#include "stdlib/images.h"
 #include "stdlib/library.h"
 
 #include <algorithm>
@@ -118,6 +119,7 @@ const LibrarySecondDerivative* library_second_derivative(const LibraryDerivative
 
 bool has_second_derivatives(const LibraryFunction& row) {
   if (is_linear_algebra(row)) return true;
+  if (is_texture(row)) return false;
   const auto is_of_row = [&row](const LibraryDerivative& derivative) { return derivative.row == &row; };
   if (std::ranges::none_of(library_derivatives(), is_of_row)) return true;
   return std::ranges::any_of(library_second_derivatives(),
@@ -130,10 +132,12 @@ bool is_linear_algebra(const LibraryFunction& row) {
   return std::ranges::find(kNames, row.name) != std::end(kNames) || (row.name == "rotate" && row.parameter_count == 3);
 }
 
-const LibraryDerivative& derivative_of(const LibraryFunction& function) { return derivative_named(function.symbol); }
+const LibraryDerivative& derivative_of(const LibraryFunction& function) {
+  return is_texture(function) ? texture_derivative() : derivative_named(function.symbol);
+}
 
 const LibraryDerivative* library_derivative(const LibraryFunction& row, unsigned parameters) {
-  const LibraryDerivative* best = nullptr;
+  const LibraryDerivative* best = is_texture(row) ? &texture_derivative() : nullptr;
   for (const LibraryDerivative& derivative : library_derivatives()) {
     if (derivative.row != &row) continue;
     best = &derivative;

@@ -7,9 +7,8 @@
 //
 // Conventions. A branch (select, abs, min, max) has the derivative of the side taken. floor, ceil, trunc, hashes and
 // the integer lattice are constant. Where a slope is infinite or does not exist (sqrt at 0, so length at 0; asin and
-// acos at
-// +-1; atan2 at the origin; x^y at x = 0 by y), the derivative is 0. x^y by y is NaN for negative x; division by zero
-// and logarithms of zero have the infinite or NaN slopes of their formulas.
+// acos at +-1; atan2 at the origin; x^y by y at x = 0 and for negative x), the derivative is 0. Division by zero and
+// logarithms of zero have the infinite or NaN slopes of their formulas.
 #pragma once
 
 #include "stdlib/hash.h"
@@ -281,9 +280,9 @@ template <DualLane D> MS_INLINE D atan(D x) {
 }
 template <DualLane D> MS_INLINE D atan2(D y, NonDeduced<D> x) {
   using L = typename D::Lane;
-  L square = madd(x.v, x.v, y.v * y.v), zero = constant<L>(0);
-  L inverse = select(equal(square, zero), zero, constant<L>(1) / square);
-  return chain<D>(atan2(y.v, x.v), y, x.v * inverse, x, -(y.v * inverse));
+  L square = madd(x.v, x.v, y.v * y.v), zero = constant<L>(0), inverse = constant<L>(1) / square;
+  auto flat = equal(square, zero) | equal(square, infinity<L>());
+  return chain<D>(atan2(y.v, x.v), y, select(flat, zero, x.v * inverse), x, select(flat, zero, -(y.v * inverse)));
 }
 template <DualLane D> MS_INLINE D exp(D x) {
   auto value = exp(x.v);
@@ -299,13 +298,30 @@ template <DualLane D> MS_INLINE D log_to_base(D x, NonDeduced<D> base) {
   return chain<D>(value, x, inverse / x.v, base, -(value * inverse / base.v));
 }
 
-/// y x^(y-1), as x^y y/x; at x = 0: 0 for y = 0 and y > 1, 1 for y = 1, else infinite, so 0.
+/// y x^(y-1), as x^y y/x; at x = 0: 0 for y = 0 and y > 1, 1 for y = 1, else infinite, so 0. A power of a negative
+/// number exists for integral y alone: no slope by y.
 template <DualLane D> MS_INLINE D pow(D x, NonDeduced<D> y) {
   using L = typename D::Lane;
   L zero = constant<L>(0), one = constant<L>(1), value = pow(x.v, y.v);
   L by_x = select(equal(x.v, zero), select(equal(y.v, one), one, zero), value / x.v * y.v);
-  L by_y = select(equal(x.v, zero), zero, value * log(x.v));
+  L by_y = select(equal(x.v, zero) | (less(x.v, zero) & !is_nan(value)), zero, value * log(x.v));
   return chain<D>(value, x, by_x, y, by_y);
+}
+
+// The shapers' slopes with the common factor b or g out, so that they hold at 0 too, where the values' formulas go
+// through infinity.
+template <DualLane D> MS_INLINE D bias(D x, D b) {
+  using L = typename D::Lane;
+  L one = constant<L>(1), rest = one - x.v;
+  L under = madd(nmadd(b.v, 2.0, one), rest, b.v), inverse = one / (under * under);
+  return chain<D>(bias(x.v, b.v), x, b.v * (one - b.v) * inverse, b, x.v * rest * inverse);
+}
+template <DualLane D> MS_INLINE D gain(D x, D g) {
+  using L = typename D::Lane;
+  L one = constant<L>(1), side = nmadd(x.v, 2.0, one), steep = nmadd(g.v, 2.0, one) * side;
+  auto low = less(x.v, constant<L>(0.5));
+  L under = select(low, steep + g.v, steep - g.v), inverse = one / (under * under);
+  return chain<D>(gain(x.v, g.v), x, g.v * (one - g.v) * inverse, g, select(low, x.v, one - x.v) * side * inverse);
 }
 
 /// x - y trunc(x/y)

@@ -8,17 +8,21 @@
 
 namespace moonshade::stdlib {
 
-/// Stores each result at its pointer.
+/// Stores each result at its pointer; where there are several, the pointer may be null.
 template <class T, size_t Count> MS_INLINE void store_results(const T& value, void* const (&pointers)[Count]) {
   int i = 0;
   for_each_result(value, [&](const auto& result) __attribute__((always_inline)) {
-    Memory<std::remove_cvref_t<decltype(result)>>::store(pointers[i++], result);
+    void* pointer = pointers[i++];
+    if (Count == 1 || pointer != nullptr) Memory<std::remove_cvref_t<decltype(result)>>::store(pointer, result);
   });
 }
+template <class... R> MS_INLINE Wanted wanted_of(R*... pointers) { return {{(pointers != nullptr)...}}; }
 
 /// Loads a row's arguments, calls its function.
 template <class Row, class... A> struct Caller {
-  template <class... P> MS_INLINE static auto call(P... pointers) { return Row::call(Memory<A>::load(pointers)...); }
+  template <class... P> MS_INLINE static auto call(Wanted wanted, P... pointers) {
+    return Row::call_for(wanted, Memory<A>::load(pointers)...);
+  }
 };
 template <class Row> struct CallerOf {
   template <class... A> using With = Caller<Row, A...>;
@@ -85,7 +89,8 @@ using namespace moonshade::stdlib;
   MS_ROW(symbol, function, type)                                                                                       \
   extern "C" [[gnu::always_inline]] void EXPORT_NAME(symbol)(JOIN(DECLARE_RESULTS_, RESULTS_##type),                   \
                                                              JOIN(DECLARE_PARAMETERS_, PARAMETERS_##type)) {           \
-    store_results(CallerOf<Row_##symbol::Of<Lane>>::Type::call(JOIN(PASS_PARAMETERS_, PARAMETERS_##type)),             \
+    store_results(CallerOf<Row_##symbol::Of<Lane>>::Type::call(wanted_of(JOIN(PASS_RESULTS_, RESULTS_##type)),         \
+                                                               JOIN(PASS_PARAMETERS_, PARAMETERS_##type)),             \
                   {JOIN(PASS_RESULTS_, RESULTS_##type)});                                                              \
   }
 #include "stdlib/table.def"

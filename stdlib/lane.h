@@ -219,6 +219,13 @@ template <class A, class B, class C> struct Results<A, B, C> {
   C third;
 };
 
+/// Which of several results somebody uses. A function that can save work by it takes it as its first argument, too.
+struct Wanted {
+  bool result[3];
+  MS_INLINE constexpr bool operator[](int i) const { return result[i]; }
+  MS_INLINE static constexpr Wanted all() { return {{true, true, true}}; }
+};
+
 /// f of each result, in order; of the one value, where there are not several.
 template <class T, class F> MS_INLINE void for_each_result(const T& value, F f) { f(value); }
 template <class A, class B, class F> MS_INLINE void for_each_result(const Results<A, B>& results, F f) {

@@ -19,7 +19,7 @@ namespace moonshade::stdlib {
 
 struct Endless {
   template <class L> MS_INLINE UInt32<L> at(L i, int axis, int step) const {
-    return (lattice(i) + UInt32<L>(uint32_t(step))) * kLatticePrimes[axis];
+    return lattice(i) * kLatticePrimes[axis] + UInt32<L>(uint32_t(step) * kLatticePrimes[axis]); // one product for all
   }
 };
 

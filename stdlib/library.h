@@ -6,7 +6,8 @@
 //     void ms_<symbol>_<f32|f64>_w<W>(void* result..., const void* argument...)
 //
 // one pointer a result and then one a parameter, each to `component_count(type)` lane vectors in memory order
-// x, y, z, w (matrices column by column). The lane vector of W lanes is, for numbers, W floats or doubles; for
+// x, y, z, w (matrices column by column); where a row has several results, the pointer to one that nobody uses may be
+// null, which can save work. The lane vector of W lanes is, for numbers, W floats or doubles; for
 // integers, W int64_t; for booleans, W bytes of 0 or 1; W = 1 is the plain scalar. Vectors are aligned to their size.
 // The exports live in bitcode (library_bitcode) and are always inlined, after which nothing of the pointers is left.
 // Every function is pure, terminates, and is defined for every bit pattern of its arguments, so it may be called with

@@ -4,6 +4,8 @@
 
 #include "stdlib/library.h"
 #include "stdlib/lua_calculus.h"
+#include "stdlib/lua_images.h"
+#include "stdlib/lua_sums.h"
 #include "stdlib/lua_tables.h"
 #include "stdlib/lua_vector.h"
 #include "stdlib/signature.h"
@@ -408,8 +410,13 @@ int luaopen_moonshade(lua_State* state) {
     lua_setglobal(state, name);
     lua_setfield(state, -3, name); // the module
   }
+  push_texture(state, 0);
+  lua_pushvalue(state, -1);
+  lua_setglobal(state, "texture");
+  lua_setfield(state, -3, "texture"); // the module
   open_vectors(state);
   open_matrices(state);
   lua_pop(state, 1);
+  open_sums(state);
   return 1;
 }

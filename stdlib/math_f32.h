@@ -251,6 +251,13 @@ template <class D> MS_INLINE D exp2_for_float(D x) {
   return bit_cast<D>(bit_cast<U>(p) + (bit_cast<U>(shifted) << U(uint64_t(52))));
 }
 
+/// x^exponent of positive doubles within the range of floats, good enough to be rounded to one.
+template <class D> MS_INLINE D power_of_double(D x, double exponent) {
+  D power = log2_of_float(x) * constant<D>(exponent);
+  power = select(less(power, constant<D>(-200)), constant<D>(-200), power);
+  return exp2_for_float(select(less(constant<D>(200), power), constant<D>(200), power));
+}
+
 /// C's pow: |x|^y = 2^(y log2 |x|) in doubles, then the signs and the special cases.
 template <class F> MS_INLINE F pow(F x, F y) {
   using D = Wide<double, width_of<F>>;

@@ -1,20 +1,15 @@
 // What all noises promise (noise.h, perlin.h, value_noise.h, worley.h, gabor.h, periodic_noise.h, curl.h, fractal.h):
-// range, mean and spread, continuity over the borders of cells, period, isotropy and spectrum, what is far away or
-// undefined; and each family's own. scripts/exhaustive looks for the ranges over 10^9 points
-// (MOONSHADE_NOISE_SAMPLES).
-#include "stdlib/curl.h"
+// range, mean and spread, continuity over the borders of cells, period, what is far away or
+// undefined (isotropy and spectrum: noise_spectrum_test.cpp); and each family's own. scripts/exhaustive looks for the
+// ranges over 10^9 points.
 #include "stdlib/fractal.h"
-#include "stdlib/gabor.h"
-#include "stdlib/periodic_noise.h"
-#include "stdlib/perlin.h"
-#include "stdlib/worley.h"
+#include "stdlib/noises_for_test.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <cstring>
 #include <limits>
 #include <numbers>
@@ -35,112 +30,24 @@ using W = Wide<double, 8>;
 template <int N> using V = Vec<N, double>;
 template <int N> using WV = Vec<N, W>;
 
-/// A noise over eight points of up to four dimensions at once.
-struct Noise {
-  const char* name;
-  int dimensions;
-  W (*at)(const WV<4>&);
-  double low, high, mean, deviation;
-  bool smooth;
-};
-
-template <int N> WV<N> first_of(const WV<4>& p) {
-  WV<N> q;
-  for (int i = 0; i < N; ++i)
-    q[i] = p[i];
-  return q;
-}
-template <int N> WV<N> all(double x) {
-  return map<N, W>([](W x) { return x; }, constant<W>(x));
-}
+template <int N> WV<N> all(double x) { return vector_of<N, W>(x); }
 W number(double x) { return constant<W>(x); }
 
-#define OF(N, expression)                                                                                              \
-  N, [](const WV<4>& p4) -> W {                                                                                        \
-    [[maybe_unused]] const auto p = first_of<N>(p4);                                                                   \
-    return expression;                                                                                                 \
-  }
+using Points = RandomPoints<W>;
 
-// Limits, mean and standard deviation as the headers state them or follow from what they state; where only a sum of
-// everything's maxima bounds the range, what the points looked at have shown, rounded up.
-const Noise kNoises[] = {
-    {"noise1", OF(1, noise<W>(p)), -1, 1, 0, 0.330, true},
-    {"noise2", OF(2, noise<W>(p)), -1, 1, 0, 0.544, true},
-    {"noise3", OF(3, noise<W>(p)), -1, 1, 0, 0.392, true},
-    {"noise4", OF(4, noise<W>(p)), -1, 1, 0, 0.254, true},
-    {"perlin1", OF(1, perlin<W>(p[0])), -1, 1, 0, 0.194, true},
-    {"perlin2", OF(2, perlin<W>(p)), -1, 1, 0, 0.256, true},
-    {"perlin3", OF(3, perlin<W>(p)), -1.04, 1.04, 0, 0.271, true},
-    {"perlin4", OF(4, perlin<W>(p)), -1.5, 1.5, 0, 0.293, true},
-    {"valuenoise1", OF(1, valuenoise<W>(p)), -1, 1, 0, 0.517, true},
-    {"valuenoise2", OF(2, valuenoise<W>(p)), -1, 1, 0, 0.454, true},
-    {"valuenoise3", OF(3, valuenoise<W>(p)), -1, 1, 0, 0.400, true},
-    {"valuenoise4", OF(4, valuenoise<W>(p)), -1, 1, 0, 0.354, true},
-    {"cellnoise1", OF(1, cellnoise<W>(p)), 0, 1, 0.5, 0.2887, false},
-    {"cellnoise3", OF(3, cellnoise<W>(p)), 0, 1, 0.5, 0.2887, false},
-    {"cellnoise4", OF(4, cellnoise<W>(p)), 0, 1, 0.5, 0.2887, false},
-    {"worley1", OF(1, worley<W>(p).first), 0, 1, 0.292, 0.201, false},
-    {"worley2", OF(2, worley<W>(p).first), 0, 1.4143, 0.429, 0.190, false},
-    {"worley3", OF(3, worley<W>(p).first), 0, 1.7321, 0.520, 0.172, false},
-    {"worley4", OF(4, worley<W>(p).first), 0, 2, 0.590, 0.156, false},
-    {"worley3 F2", OF(3, worley<W>(p).second), 0, 2.07, 0.717, 0.143, false},
-    {"worley3 cell", OF(3, worley<W>(p).third), 0, 1, 0.5, 0.2887, false},
-    {"worley3 manhattan", OF(3, worley<W>(p, number(1)).first), 0, 3, 0.765, 0.255, false},
-    {"worley3 chebyshev", OF(3, worley<W>(p, number(INFINITY)).first), 0, 1, 0.421, 0.140, false},
-    {"gabor1", OF(1, gabor<W>(p, number(4))), -8, 8, 0, 0.333, true},
-    {"gabor2", OF(2, gabor<W>(p, number(4))), -8, 8, 0, 0.333, true},
-    {"gabor3", OF(3, gabor<W>(p, number(4))), -8, 8, 0, 0.333, true},
-    {"gabor3 wave", OF(3, gabor<W>(p, all<3>(2.5))), -8, 8, 0, 0.333, true},
-    {"pnoise1", OF(1, pnoise<W>(p, all<1>(4096))), -1, 1, 0, 0.330, true},
-    {"pnoise2", OF(2, pnoise<W>(p, all<2>(113))), -1, 1, 0, 0.452, true},
-    {"pnoise3", OF(3, pnoise<W>(p, all<3>(113))), -1, 1, 0, 0.393, true},
-    {"pnoise4", OF(4, pnoise<W>(p, all<4>(113))), -1, 1, 0, 0.351, true},
-    {"pperlin3", OF(3, pperlin<W>(p, all<3>(113))), -1.04, 1.04, 0, 0.271, true},
-    {"pvaluenoise3", OF(3, pvaluenoise<W>(p, all<3>(113))), -1, 1, 0, 0.400, true},
-    {"pcellnoise3", OF(3, pcellnoise<W>(p, all<3>(113))), 0, 1, 0.5, 0.2887, false},
-    {"pworley3", OF(3, pworley<W>(p, all<3>(113), number(2)).first), 0, 1.7321, 0.520, 0.172, false},
-    {"pgabor2", OF(2, pgabor<W>(p, all<2>(113), number(4))), -8, 8, 0, 0.333, true},
-    {"vnoise3 y", OF(3, vnoise<W>(p)[1]), -1, 1, 0, 0.392, true},
-    {"vnoise4 z", OF(4, vnoise<W>(p)[2]), -1, 1, 0, 0.254, true},
-    {"vperlin3 z", OF(3, vperlin<W>(p)[2]), -1.04, 1.04, 0, 0.271, true},
-    {"vvaluenoise2 y", OF(2, vvaluenoise<W>(p)[1]), -1, 1, 0, 0.454, true},
-    {"vcellnoise3 z", OF(3, vcellnoise<W>(p)[2]), 0, 1, 0.5, 0.2887, false},
-    {"curl2 x", OF(2, curl<W>(p)[0]), -10, 10, 0, 2.60, false},
-    {"curl3 y", OF(3, curl<W>(p)[1]), -10, 10, 0, 2.48, false},
-    {"curl4 z", OF(4, curl<W>(p)[2]), -10, 10, 0, 1.555, false},
-};
+const std::vector<Noise<W>> kNoises = all_noises<W>();
 
-void PrintTo(const Noise& noise, std::ostream* out) { *out << noise.name; }
-std::string test_name(const testing::TestParamInfo<Noise>& info) {
+std::string test_name(const testing::TestParamInfo<Noise<W>>& info) {
   std::string name = info.param.name;
   std::ranges::replace(name, ' ', '_');
   return name;
 }
 
-/// Points all over a block of side 1000, by a counter.
-struct Points {
-  uint64_t state = 1;
-  double next() {
-    state += 0x9e3779b97f4a7c15u;
-    uint64_t x = (state ^ (state >> 30)) * 0xbf58476d1ce4e5b9u;
-    x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
-    return double(int64_t(x ^ (x >> 31))) * 0x1p-63 * 500;
-  }
-  WV<4> block(int dimensions) {
-    WV<4> p = all<4>(0);
-    for (int i = 0; i < dimensions; ++i)
-      for (int lane = 0; lane < 8; ++lane)
-        p[i][lane] = next();
-    return p;
-  }
-};
-
-class NoiseRange : public testing::TestWithParam<Noise> {};
+class NoiseRange : public testing::TestWithParam<Noise<W>> {};
 
 TEST_P(NoiseRange, IsNeverLeftAndHasItsMeanAndSpread) {
-  const Noise& noise = GetParam();
-  const char* wanted = std::getenv("MOONSHADE_NOISE_SAMPLES");
-  const uint64_t blocks = (wanted == nullptr ? 160'000 : std::strtoull(wanted, nullptr, 10)) / 8;
+  const Noise<W>& noise = GetParam();
+  const uint64_t blocks = 20'000;
   W low = number(INFINITY), high = number(-INFINITY), sum = number(0), squares = number(0);
   Points points;
   for (uint64_t i = 0; i < blocks; ++i) {
@@ -155,8 +62,6 @@ TEST_P(NoiseRange, IsNeverLeftAndHasItsMeanAndSpread) {
   for (int lane = 0; lane < 8; ++lane)
     mean += sum[lane] / count, square += squares[lane] / count;
   const double deviation = std::sqrt(square - mean * mean);
-  if (wanted != nullptr)
-    std::printf("%s: %.6f to %.6f, mean %.5f, standard deviation %.5f\n", noise.name, least, most, mean, deviation);
   EXPECT_GE(least, noise.low);
   EXPECT_LE(most, noise.high);
   EXPECT_NEAR(mean, noise.mean, 0.02 * noise.deviation + 0.007);
@@ -166,10 +71,10 @@ TEST_P(NoiseRange, IsNeverLeftAndHasItsMeanAndSpread) {
 INSTANTIATE_TEST_SUITE_P(Families, NoiseRange, testing::ValuesIn(kNoises), test_name);
 
 /// Along random lines through points on the borders of cells and of simplices.
-class NoiseContinuity : public testing::TestWithParam<Noise> {};
+class NoiseContinuity : public testing::TestWithParam<Noise<W>> {};
 
 TEST_P(NoiseContinuity, HoldsForValueAndSlopeOverBorders) {
-  const Noise& noise = GetParam();
+  const Noise<W>& noise = GetParam();
   if (!noise.smooth) GTEST_SKIP() << "not differentiable everywhere";
   const double h = 1e-4;
   Points points;
@@ -380,116 +285,6 @@ TEST(Curl, IsTheCurlOfThePotential) {
               (noise<double>(V<2>{{q[0], q[1] + h}}) - noise<double>(V<2>{{q[0], q[1] - h}})) / (2 * h), 1e-7);
 }
 
-// Isotropy and spectrum -----------------------------------------------------------------------------------------------
-
-/// The mean square of the noise's slope in directions of the plane, by differences.
-std::array<double, 8> slopes(W (*noise_at)(const WV<4>&), int dimensions) {
-  std::array<double, 8> result = {};
-  Points points;
-  for (int k = 0; k < 8; ++k) {
-    const double angle = std::numbers::pi * k / 8, h = 1e-3;
-    for (int n = 0; n < 6000; ++n) {
-      WV<4> p = points.block(dimensions), q = p;
-      q[0] += number(h * std::cos(angle));
-      q[1] += number(h * std::sin(angle));
-      const W slope = (noise_at(q) - noise_at(p)) / number(h), square = slope * slope;
-      result[size_t(k)] += __builtin_reduce_max(square) > 1e6 ? 0 : square[0] + square[3] + square[5];
-    }
-  }
-  return result;
-}
-double unevenness(const std::array<double, 8>& values) {
-  return *std::ranges::max_element(values) / *std::ranges::min_element(values);
-}
-
-W simplex2(const WV<4>& p) { return noise<W>(first_of<2>(p)); }
-W simplex3(const WV<4>& p) { return noise<W>(first_of<3>(p)); }
-W simplex4(const WV<4>& p) { return noise<W>(p); }
-W periodic2(const WV<4>& p) { return pnoise<W>(first_of<2>(p), all<2>(113)); }
-W periodic3(const WV<4>& p) { return pnoise<W>(first_of<3>(p), all<3>(113)); }
-W gabor2(const WV<4>& p) { return gabor<W>(first_of<2>(p), number(4)); }
-W wave2(const WV<4>& p) { return gabor<W>(first_of<2>(p), WV<2>{{number(4), number(0)}}); }
-
-TEST(Isotropy, SlopesAreAlikeInAllDirections) {
-  EXPECT_LT(unevenness(slopes(simplex2, 2)), 1.12);
-  EXPECT_LT(unevenness(slopes(simplex3, 3)), 1.12);
-  EXPECT_LT(unevenness(slopes(simplex4, 4)), 1.12);
-  EXPECT_LT(unevenness(slopes(periodic2, 2)), 1.12);
-  EXPECT_LT(unevenness(slopes(periodic3, 3)), 1.12);
-  EXPECT_LT(unevenness(slopes(gabor2, 2)), 1.12);
-  EXPECT_GT(unevenness(slopes(wave2, 2)), 5) << "the measure tells a direction";
-}
-
-/// Power by frequency along x, in units of the mean over all: 256 samples, 8 to the unit, under a Hann window.
-std::vector<double> spectrum(W (*noise_at)(const WV<4>&), int dimensions) {
-  constexpr int count = 256;
-  std::vector<double> power(count / 2);
-  Points points;
-  for (int line = 0; line < 40; ++line) {
-    const WV<4> start = points.block(dimensions);
-    std::vector<double> samples;
-    for (int i = 0; i < count; ++i) {
-      WV<4> p = start;
-      p[0] += number(i / 8.0);
-      samples.push_back(noise_at(p)[0] * (1 - std::cos(2 * std::numbers::pi * i / count)));
-    }
-    for (int f = 0; f < count / 2; ++f) {
-      double re = 0, im = 0;
-      for (int i = 0; i < count; ++i) {
-        const double angle = 2 * std::numbers::pi * f * i / count;
-        re += samples[size_t(i)] * std::cos(angle), im += samples[size_t(i)] * std::sin(angle);
-      }
-      power[size_t(f)] += re * re + im * im;
-    }
-  }
-  double total = 0;
-  for (double p : power)
-    total += p;
-  for (double& p : power)
-    p /= total;
-  return power;
-}
-
-/// The part of the power between two frequencies, in waves to the unit.
-double band(const std::vector<double>& power, double low, double high) {
-  double sum = 0;
-  for (size_t f = 0; f < power.size(); ++f)
-    if (double(f) / 32 >= low && double(f) / 32 < high) sum += power[f];
-  return sum;
-}
-
-TEST(Spectrum, SimplexIsABandBelowTwoWavesAndGaborWhereItIsPut) {
-  for (auto simplex : {simplex2, simplex3, simplex4, periodic2, periodic3}) {
-    const auto power = spectrum(simplex, simplex == simplex4 ? 4 : simplex == simplex2 || simplex == periodic2 ? 2 : 3);
-    EXPECT_GT(band(power, 0, 2), 0.98);
-    EXPECT_LT(band(power, 3, 4), 0.001);
-    EXPECT_LT(*std::ranges::max_element(power), 0.06) << "no line stands out";
-  }
-  EXPECT_GT(band(spectrum(wave2, 2), 3, 4), 0.3);
-  EXPECT_GT(band(spectrum([](const WV<4>& p) { return gabor<W>(first_of<2>(p), WV<2>{{number(2.5), number(0)}}); }, 2),
-                 1.5, 3.5),
-            0.98);
-}
-
-/// Lattice artefacts would show as likeness of points whole units apart.
-TEST(Spectrum, PointsUnitsApartAreNotAlike) {
-  for (auto noise_at : {simplex2, simplex3, simplex4, periodic3}) {
-    for (int axis = 0; axis < 2; ++axis)
-      for (int units = 2; units < 6; ++units) {
-        Points points;
-        double product = 0, square = 0;
-        for (int n = 0; n < 10000; ++n) {
-          WV<4> p = points.block(4), q = p;
-          q[axis] += number(units);
-          const W a = noise_at(p), b = noise_at(q);
-          for (int lane = 0; lane < 8; ++lane)
-            product += a[lane] * b[lane], square += a[lane] * a[lane];
-        }
-        EXPECT_LT(std::abs(product / square), 0.025) << axis << " " << units;
-      }
-  }
-}
-
 // Far away and undefined ----------------------------------------------------------------------------------------------
 
 TEST(NoiseFarAway, HasCellsOfItsOwnToTwoToThe22) {
@@ -511,7 +306,7 @@ TEST(NoiseFarAway, HasCellsOfItsOwnToTwoToThe22) {
 
 TEST(NoiseFarAway, IsWithinItsRangeOrNaN) {
   for (double far : {0x1p23, 1e9, -1e15, 1e30, 1e300})
-    for (const Noise& noise : kNoises) {
+    for (const Noise<W>& noise : kNoises) {
       WV<4> p = all<4>(0.3);
       p[0] = number(far);
       const double x = noise.at(p)[0];
@@ -521,7 +316,7 @@ TEST(NoiseFarAway, IsWithinItsRangeOrNaN) {
 
 TEST(NoiseFarAway, IsNaNForNaNAndInfinity) {
   for (double undefined : {double(NAN), double(INFINITY), -double(INFINITY)})
-    for (const Noise& noise : kNoises) {
+    for (const Noise<W>& noise : kNoises) {
       const std::string name = noise.name;
       if (name.find("cell") != std::string::npos) continue; // cells like others
       for (int axis = 0; axis < noise.dimensions; ++axis) {

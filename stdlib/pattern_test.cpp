@@ -30,30 +30,43 @@ struct Pattern {
   double worst, mean_square;
 };
 
-/// Exact ones lie within the noise of the samples; that of 24 x 24 stratified ones grows with the width.
+/// A plane through a solid, along none of its axes.
+Vec3 oblique(Vec2 p) { return {{0.8 * p[0] - 0.36 * p[1] + 0.3, 0.8 * p[1] - 0.2, 0.6 * p[0] + 0.48 * p[1]}}; }
+Vec3 level(Vec2 p) { return {{p[0], 0.3, p[1]}}; }
+
+/// Exact ones lie within the noise of the samples; that of 32 x 32 stratified ones grows with the width. The
+/// footprint's plane is not known to solids, so their filters are right on the average over planes.
 const Pattern kPatterns[] = {
-    {"checker", [](Vec2 p, double w) { return checker<double>(p, w); }, 0.06, 0.02},
-    {"stripes", [](Vec2 p, double w) { return stripes<double>(p[0], w, 0.3, 0.1); }, 0.06, 0.02},
-    {"tiles", [](Vec2 p, double w) { return tiles<double>(p, w, 0.1, 0.1).first; }, 0.07, 0.02},
-    {"brick stacked", [](Vec2 p, double w) { return brick<double>(p, w, 0.1, 0.0, 0, 2).first; }, 0.08, 0.03},
-    {"brick running", [](Vec2 p, double w) { return brick<double>(p, w, 0.1, 0.1, 0.5, 2).first; }, 0.08, 0.03},
-    {"brick English", [](Vec2 p, double w) { return brick<double>(p, w, 0.1, 0.05, 1, 2).first; }, 0.12, 0.03},
-    {"brick Flemish", [](Vec2 p, double w) { return brick<double>(p, w, 0.1, 0.05, 2, 2).first; }, 0.12, 0.03},
-    {"dots", [](Vec2 p, double w) { return dots<double>(p, w, 0.3).first; }, 0.12, 0.04},
-    {"hexagons", [](Vec2 p, double w) { return hexagons<double>(p, w, 0.1, 0.0).first; }, 0.3, 0.07},
-    {"voronoi", [](Vec2 p, double w) { return voronoi<double, 2>(p, w, 0.05, 1).first; }, 0.4, 0.08},
-    {"voronoi of space", [](Vec2 p, double w) { return voronoi<double, 3>(Vec3{{p[0], p[1], 0.3}}, w, 0.05, 1).first; },
-     0.7, 0.13}, // a plane cuts the borders at an angle: they look wider than they are
-    {"wood", [](Vec2 p, double w) { return wood<double>(Vec3{{p[0], 0.3, p[1]}}, w, 0.4, 0.2); }, 0.35, 0.07},
-    {"marble", [](Vec2 p, double w) { return marble<double>(Vec3{{p[0], 0.3, p[1]}}, w, 0.5); }, 0.5, 0.1},
+    {"checker", [](Vec2 p, double w) { return checker<double>(p, w); }, 0.03, 0.008},
+    {"stripes", [](Vec2 p, double w) { return stripes<double>(p[0], w, 0.3, 0.1); }, 0.03, 0.008},
+    {"tiles", [](Vec2 p, double w) { return tiles<double>(p, w, 0.1, 0.1).first; }, 0.03, 0.008},
+    {"brick stacked", [](Vec2 p, double w) { return brick<double>(p, w, 0.1, 0.0, 0, 2).first; }, 0.03, 0.008},
+    {"brick running", [](Vec2 p, double w) { return brick<double>(p, w, 0.1, 0.1, 0.5, 2).first; }, 0.03, 0.008},
+    {"brick raking", [](Vec2 p, double w) { return brick<double>(p, w, 0.1, 0.1, 1.0 / 3, 2).first; }, 0.035, 0.015},
+    {"brick English", [](Vec2 p, double w) { return brick<double>(p, w, 0.1, 0.05, 1, 2).first; }, 0.03, 0.008},
+    {"brick Flemish", [](Vec2 p, double w) { return brick<double>(p, w, 0.1, 0.05, 2, 2).first; }, 0.03, 0.008},
+    {"dots", [](Vec2 p, double w) { return dots<double>(p, w, 0.3).first; }, 0.03, 0.008},
+    {"dots that touch", [](Vec2 p, double w) { return dots<double>(p, w, 0.5).first; }, 0.03, 0.008},
+    {"hexagons", [](Vec2 p, double w) { return hexagons<double>(p, w, 0.1, 0.0).first; }, 0.04, 0.009},
+    {"hexagons bevelled", [](Vec2 p, double w) { return hexagons<double>(p, w, 0.1, 0.15).first; }, 0.045, 0.009},
+    {"voronoi", [](Vec2 p, double w) { return voronoi<double, 2>(p, w, 0.05, 1).first; }, 0.06, 0.013},
+    {"voronoi wide borders", [](Vec2 p, double w) { return voronoi<double, 2>(p, w, 0.15, 1).first; }, 0.12, 0.026},
+    {"voronoi of space", [](Vec2 p, double w) { return voronoi<double, 3>(level(p), w, 0.05, 1).first; }, 0.5, 0.08},
+    {"voronoi of space oblique", [](Vec2 p, double w) { return voronoi<double, 3>(oblique(p), w, 0.05, 1).first; }, 0.5,
+     0.085},
+    {"wood", [](Vec2 p, double w) { return wood<double>(level(p), w, 0.4, 0.2); }, 0.11, 0.04},
+    {"wood oblique", [](Vec2 p, double w) { return wood<double>(oblique(p), w, 0.4, 0.2); }, 0.19, 0.052},
+    {"marble", [](Vec2 p, double w) { return marble<double>(level(p), w, 0.5); }, 0.31, 0.08},
+    {"marble oblique", [](Vec2 p, double w) { return marble<double>(oblique(p), w, 0.5); }, 0.28, 0.088},
+    {"marble distorted", [](Vec2 p, double w) { return marble<double>(level(p), w, 1); }, 0.4, 0.11},
 };
 
 class Patterns : public testing::TestWithParam<Pattern> {};
 
 TEST_P(Patterns, AreWhatSupersamplingSees) {
-  constexpr int kSide = 24;
+  constexpr int kSide = 32;
   Sampler sampler;
-  for (const double width : {0.02, 0.1, 0.3, 0.8, 1.5, 4.0}) {
+  for (const double width : {0.02, 0.05, 0.1, 0.2, 0.4, 0.8, 1.2, 2.7}) {
     double worst = 0, squares = 0;
     constexpr int kPoints = 120;
     for (int i = 0; i < kPoints; ++i) {
@@ -76,16 +89,16 @@ TEST_P(Patterns, AreWhatSupersamplingSees) {
 TEST_P(Patterns, StayInRangeAndEndInTheirMean) {
   Sampler sampler;
   double sum = 0;
-  constexpr int kPoints = 20000;
+  constexpr int kPoints = 200000;
   for (int i = 0; i < kPoints; ++i) {
     const double value = GetParam().value(sampler.point(), 0);
     ASSERT_GE(value, 0) << GetParam().name;
     ASSERT_LE(value, 1) << GetParam().name;
     sum += value;
   }
-  for (const double width : {60.0, 1e6, 1e30, double(INFINITY)}) {
+  for (const double width : {200.0, 1e6, 1e30, double(INFINITY)}) {
     const double mean = GetParam().value(sampler.point(), width);
-    EXPECT_NEAR(mean, sum / kPoints, 0.02) << GetParam().name << " at width " << width;
+    EXPECT_NEAR(mean, sum / kPoints, 0.004) << GetParam().name << " at width " << width;
   }
   for (int i = 0; i < 2000; ++i) {
     const double value = GetParam().value(sampler.point(), std::exp2(sampler.uniform(-20, 8)));

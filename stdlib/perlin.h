@@ -10,6 +10,7 @@
 
 #include "stdlib/hash.h"
 #include "stdlib/numbers.h"
+#include "stdlib/tables.h"
 #include "stdlib/value_noise.h"
 
 namespace moonshade::stdlib {
@@ -37,6 +38,14 @@ static constexpr PerlinTable kPerlinTable = [] {
     table.entry[i] = kPerlinPermutation[i & 255];
   return table;
 }();
+
+/// The reference's twelve edges, four of them twice: a corner's gradient by the lower four bits of its hash.
+struct PerlinEdges {
+  float x[16], y[16], z[16];
+};
+alignas(64) static constexpr PerlinEdges kPerlinEdges = {{1, -1, 1, -1, 1, -1, 1, -1, 0, 0, 0, 0, 1, 0, -1, 0},
+                                                         {1, 1, -1, -1, 0, 0, 0, 0, 1, -1, 1, -1, 1, -1, 1, -1},
+                                                         {0, 0, 0, 0, 1, 1, -1, -1, 1, 1, -1, -1, 0, 1, 0, -1}};
 
 extern "C" {
 // In the bitcode: 32 bits from the table at each of W byte offsets (gather.ll.in).
@@ -70,12 +79,57 @@ template <class L> MS_INLINE L perlin_ramp(UInt32<L> hash, L x, L y, L z) {
 
 template <class L> MS_INLINE L perlin_lerp(L t, L a, L b) { return madd(t, b - a, a); }
 
+// Where a machine has tables in registers (tables.h) they give both: the permutation at the four bytes of a lane, and
+// the three coefficients of a corner's gradient. All look-ups of a cell are then four.
+
+/// The lowest byte, four times.
+template <class U> MS_INLINE U fourfold(U x) {
+  constexpr int bytes = 4 * width_of<U>;
+  using Bytes = Wide<uint8_t, bytes>;
+  return [&]<size_t... I>(std::index_sequence<I...>) __attribute__((always_inline)) {
+    const auto b = bit_cast<Bytes>(x);
+    return bit_cast<U>(__builtin_shufflevector(b, b, int(I & ~size_t(3))...));
+  }(std::make_index_sequence<size_t(bytes)>());
+}
+template <class U> MS_INLINE U add_bytes(U a, U b) {
+  using Bytes = Wide<uint8_t, 4 * width_of<U>>;
+  return bit_cast<U>(bit_cast<Bytes>(a) + bit_cast<Bytes>(b));
+}
+
+/// The ramp as a scalar product. What it adds to the sum of two components is zeros, so it has their bits but for the
+/// sign of a zero.
+template <class L> MS_INLINE L perlin_product(UInt32<L> hash, L x, L y, L z) {
+  const L a = table_of_16<L>(kPerlinEdges.x, hash), b = table_of_16<L>(kPerlinEdges.y, hash);
+  const L c = table_of_16<L>(kPerlinEdges.z, hash);
+  return madd(a, x, madd(b, y, c * z));
+}
+
+template <class L> MS_INLINE L perlin_by_tables(UInt32<L> cx, UInt32<L> cy, UInt32<L> cz, Vec<3, L> d, Vec<3, L> fades) {
+  using U = UInt32<L>;
+  L x = d[0], y = d[1], z = d[2], one = constant<L>(1), u = fades[0], v = fades[1];
+  L x1 = x - one, y1 = y - one, z1 = z - one;
+  // The bytes of a lane are the corners (0, 0), (0, 1), (1, 0), (1, 1) of x and y.
+  U a = table_of_256(kPerlinTable.entry, add_bytes(fourfold(cx), U(0x01010000u)));
+  U ab = table_of_256(kPerlinTable.entry, add_bytes(a, add_bytes(fourfold(cy), U(0x01000100u))));
+  U at = add_bytes(ab, fourfold(cz));
+  const auto side = [&](U hash, L z) __attribute__((always_inline)) {
+    return perlin_lerp(v,
+                       perlin_lerp(u, perlin_product(hash, x, y, z), perlin_product(hash >> U(16u), x1, y, z)),
+                       perlin_lerp(u, perlin_product(hash >> U(8u), x, y1, z), perlin_product(hash >> U(24u), x1, y1, z)));
+  };
+  L near = side(table_of_256(kPerlinTable.entry, at), z);
+  L far = side(table_of_256(kPerlinTable.entry, add_bytes(at, U(0x01010101u))), z1);
+  return perlin_lerp(fades[2], near, far);
+}
+
 template <class L> MS_INLINE L perlin(Vec<3, L> p) {
   using U = UInt32<L>;
   L i = floor(p[0]), j = floor(p[1]), k = floor(p[2]);
-  L x = p[0] - i, y = p[1] - j, z = p[2] - k, one = constant<L>(1);
+  L x = p[0] - i, y = p[1] - j, z = p[2] - k, one = constant<L>(1), zero = constant<L>(0);
   L u = fade(x), v = fade(y), w = fade(z), x1 = x - one, y1 = y - one, z1 = z - one;
   U cx = lattice(i), cy = lattice(j), cz = lattice(k), byte = U(8u), low = U(255u);
+  if constexpr (has_tables<L>)
+    if (moonshade_target_has_tables()) return perlin_by_tables<L>(cx, cy, cz, {{x, y, z}}, {{u, v, w}}) + zero;
   U ab = permuted_pair(cx);
   U aa_ab = permuted_pair((ab & low) + cy), ba_bb = permuted_pair((ab >> byte) + cy);
   U aa = permuted_pair((aa_ab & low) + cz), aab = permuted_pair((aa_ab >> byte) + cz);
@@ -84,7 +138,7 @@ template <class L> MS_INLINE L perlin(Vec<3, L> p) {
                        perlin_lerp(u, perlin_ramp(aab, x, y1, z), perlin_ramp(bab, x1, y1, z)));
   L far = perlin_lerp(v, perlin_lerp(u, perlin_ramp(aa >> byte, x, y, z1), perlin_ramp(ba >> byte, x1, y, z1)),
                       perlin_lerp(u, perlin_ramp(aab >> byte, x, y1, z1), perlin_ramp(bab >> byte, x1, y1, z1)));
-  return perlin_lerp(w, near, far);
+  return perlin_lerp(w, near, far) + zero; // a zero is +0, however it came about
 }
 
 template <class L> MS_INLINE L perlin(Vec<2, L> p) {

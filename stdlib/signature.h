@@ -58,6 +58,13 @@ template <class R, class... A> struct Signature<R(A...)> {
         static_assert(std::is_same_v<Given, typename Signature<Type>::Result>, "table.def: " #symbol_ "'s result");    \
         return ::moonshade::stdlib::function_<L>(arguments...);                                                        \
       }                                                                                                                \
+      template <class... A>                                                                                            \
+      MS_INLINE static typename Signature<Type>::Result call_for(Wanted wanted, const A&... arguments) {               \
+        if constexpr (requires { ::moonshade::stdlib::function_<L>(wanted, arguments...); })                           \
+          return ::moonshade::stdlib::function_<L>(wanted, arguments...);                                              \
+        else                                                                                                           \
+          return call(arguments...);                                                                                   \
+      }                                                                                                                \
     };                                                                                                                 \
   };
 

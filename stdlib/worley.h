@@ -5,8 +5,8 @@
 // Metrics by the exponent of their norm: 2 Euclidean, 1 Manhattan, math.huge Chebyshev (others count as the nearest of
 // these: below 1.5, below 3, above). F1 and F2 are continuous, with kinks where the nearest point changes.
 //
-// The search: the 3^N cells around the point in rows along x, leaving out rows that are further away than F2 on every
-// lane; then, where F2 reaches beyond those cells, the next layer around them, with which Euclidean and Chebyshev
+// The search: the 3^N cells around the point in rows along x, leaving out rows that are further away than F2 (F1, where
+// nobody asks for F2) on every lane; then, where F2 reaches beyond those cells, the next layer around them, with which Euclidean and Chebyshev
 // distances are exact (Manhattan's are but for a chance below 1e-7). Ranges in N dimensions: F1 in 0..sqrt(N), N, 1 for
 // the three metrics; the id does not depend on the metric's search order.
 //
@@ -105,8 +105,9 @@ template <int N, int Reach> static constexpr WorleyRows<N, Reach> kWorleyRows;
 
 template <class L, int N, class Lattice, class Metric, bool Tracked> class WorleySearch {
 public:
-  MS_INLINE WorleySearch(const Vec<N, L>& p, const Lattice& lattice, const Metric& metric)
-      : lattice_(lattice), metric_(metric),
+  /// `both`: not F1 alone. The nearest point is the same, but the search for it ends sooner.
+  MS_INLINE WorleySearch(const Vec<N, L>& p, const Lattice& lattice, const Metric& metric, bool both)
+      : lattice_(lattice), metric_(metric), both_(both),
         cell_(map<N, L>([](L x) __attribute__((always_inline)) { return floor(x); }, p)), place_(p - cell_) {}
 
   MS_INLINE NearestTwo<L, N, Tracked> run() {
@@ -118,7 +119,7 @@ public:
 #pragma clang loop unroll(full)
     for (int i = 1; i < N; ++i)
       along[0] = min(along[0], constant<L>(1) + nearest_side(i));
-    if (any(less(metric_.measure(along), found_.second)))
+    if (any(less(metric_.measure(along), horizon())))
       for (int r = 0; r < kWorleyRows<N, 2>.count; ++r) {
         const int8_t(&step)[3] = kWorleyRows<N, 2>.step[r];
         const bool inner = step[0] * step[0] < 4 && step[1] * step[1] < 4 && step[2] * step[2] < 4;
@@ -128,6 +129,8 @@ public:
   }
 
 private:
+  /// What is further away does not count.
+  MS_INLINE L horizon() const { return both_ ? found_.second : found_.first; }
   MS_INLINE L nearest_side(int axis) const { return min(place_[axis], constant<L>(1) - place_[axis]); }
 
   /// The cells from..reach away, both ways, along x of a row, if it is near enough on any lane.
@@ -141,7 +144,7 @@ private:
       least[i] = max(max(corner[i], -(corner[i] + constant<L>(1))), constant<L>(0));
       hash ^= lattice_.at(cell_[i], i, step[i - 1]);
     }
-    if (N > 1 && !any(less(metric_.measure(least), found_.second))) return;
+    if (N > 1 && !any(less(metric_.measure(least), horizon()))) return;
     if (from == 0) cell(hash, corner, 0);
     for (int x = from == 0 ? 1 : from; x <= reach; ++x) {
       cell(hash, corner, x);
@@ -164,6 +167,7 @@ private:
 
   const Lattice& lattice_;
   const Metric& metric_;
+  const bool both_;
   const Vec<N, L> cell_, place_;
   NearestTwo<L, N, Tracked> found_;
 };
@@ -171,9 +175,10 @@ private:
 // The noise -----------------------------------------------------------------------------------------------------------
 
 template <class L, int N, class Lattice, class Metric>
-MS_INLINE Results<L, L, L> worley_noise(const Vec<N, L>& p, const Lattice& lattice, const Metric& metric) {
+MS_INLINE Results<L, L, L> worley_noise(const Vec<N, L>& p, const Lattice& lattice, const Metric& metric,
+                                        Wanted wanted) {
   using P = ValueOf<L>;
-  const auto found = WorleySearch<P, N, Lattice, Metric, is_dual<L>>(value_of(p), lattice, metric).run();
+  const auto found = WorleySearch<P, N, Lattice, Metric, is_dual<L>>(value_of(p), lattice, metric, wanted[1]).run();
   // Infinity less its floor is NaN too.
   P place = value_of(p)[0] - floor(value_of(p)[0]);
 #pragma clang loop unroll(full)
@@ -191,14 +196,22 @@ MS_INLINE Results<L, L, L> worley_noise(const Vec<N, L>& p, const Lattice& latti
           select(undefined, constant<L>(__builtin_nan("")), convert<L>(unit_number<P>(mix_bits(found.cell))))};
 }
 
-template <class L, class P> MS_INLINE Results<L, L, L> worley(const P& p) {
-  return worley_noise<L>(as_vector(p), Endless(), EuclideanMetric());
+template <class L, class P> MS_INLINE Results<L, L, L> worley(Wanted wanted, const P& p) {
+  return worley_noise<L>(as_vector(p), Endless(), EuclideanMetric(), wanted);
 }
+template <class L, class P> MS_INLINE Results<L, L, L> worley(Wanted wanted, const P& p, const L& metric) {
+  return worley_noise<L>(as_vector(p), Endless(), AnyMetric<ValueOf<L>>(value_of(metric)), wanted);
+}
+template <class L, class P>
+MS_INLINE Results<L, L, L> pworley(Wanted wanted, const P& p, const P& period, const L& metric) {
+  return worley_noise<L>(as_vector(p), periodic<L>(period), AnyMetric<ValueOf<L>>(value_of(metric)), wanted);
+}
+template <class L, class P> MS_INLINE Results<L, L, L> worley(const P& p) { return worley<L>(Wanted::all(), p); }
 template <class L, class P> MS_INLINE Results<L, L, L> worley(const P& p, const L& metric) {
-  return worley_noise<L>(as_vector(p), Endless(), AnyMetric<ValueOf<L>>(value_of(metric)));
+  return worley<L>(Wanted::all(), p, metric);
 }
 template <class L, class P> MS_INLINE Results<L, L, L> pworley(const P& p, const P& period, const L& metric) {
-  return worley_noise<L>(as_vector(p), periodic<L>(period), AnyMetric<ValueOf<L>>(value_of(metric)));
+  return pworley<L>(Wanted::all(), p, period, metric);
 }
 
 } // namespace moonshade::stdlib

@@ -5,8 +5,11 @@
 #include "compiler/codegen/emitter.h"
 #include "compiler/codegen/entry.h"
 #include "compiler/codegen/link.h"
+#include "compiler/codegen/native_calls.h"
 #include "compiler/codegen/pipeline.h"
+#include "compiler/codegen/tables.h"
 #include "compiler/codegen/target.h"
+#include "compiler/codegen/width.h"
 
 #include <llvm/ADT/SmallString.h>
 #include <llvm/Analysis/LoopInfo.h>
@@ -114,11 +117,11 @@ void emit_module(Generated& generated, const ir::Module& module, const Options& 
   const FunctionAttributes attributes = attributes_for(parts.target, domain);
   const FaultPlaces places(module);
   ModuleEmitter emitter(*parts.module, module, domain, attributes, places);
-  const uint64_t print_slot = emitter.layout.size; // the layout is aligned
+  info.print_slot = emitter.layout.size; // the layout is aligned
+  info.image_slot = emitter.image_slot = info.print_slot + sizeof(void*);
   if (options.prints) {
-    info.print_slot = print_slot;
     emitter.prints = &info.prints;
-    emitter.print_slot = print_slot;
+    emitter.print_slot = info.print_slot;
   }
   for (const ir::Entry& entry : module.entries) {
     std::vector<bool> uniform;
@@ -132,6 +135,7 @@ void emit_module(Generated& generated, const ir::Module& module, const Options& 
   if (module.init != ir::kNone) {
     info.init_symbol = "moonshade_init";
     ModuleEmitter init(*parts.module, module, single, attributes, places);
+    init.image_slot = info.image_slot;
     emit_init(init, info.init_symbol);
   }
   for (const ir::Instruction* place : places.places) {
@@ -144,7 +148,10 @@ void emit_module(Generated& generated, const ir::Module& module, const Options& 
   if (std::string complaint = verify(*parts.module); !complaint.empty())
     generated.error = "internal error: " + complaint;
 #endif
-  if (generated.error.empty()) link_library(*parts.module, domain, attributes, generated.error);
+  if (!generated.error.empty()) return;
+  choose_native_calls(*parts.module, domain, parts.target, options.library_calls);
+  link_library(*parts.module, domain, attributes, generated.error);
+  if (generated.error.empty()) define_tables(*parts.module, parts.target);
 }
 
 std::string machine_code(Generated& generated, llvm::CodeGenFileType type) {
@@ -197,8 +204,9 @@ Generated generate(const ir::Module& module, const Options& options) {
     generated.error = parts.target.error;
     return generated;
   }
+  generated.runs_here = parts.target.native;
   generated.info.precision = options.precision;
-  generated.info.width = options.width != 0 ? options.width : best_width(parts.target, options.precision);
+  generated.info.width = choose_width(module, parts.target, options).width;
   parts.context.setDiagnosticHandlerCallBack(listen, &parts);
   parts.module = std::make_unique<llvm::Module>("shader", parts.context);
   parts.module->setTargetTriple(parts.target.machine->getTargetTriple().str());

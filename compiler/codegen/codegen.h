@@ -12,6 +12,15 @@
 
 namespace moonshade::codegen {
 
+/// Which of the library's functions are called as machine code of this process (native_calls.h). The others are linked
+/// as bitcode, inlined and compiled with the shader: faster by what a call costs, and by what the optimiser makes of
+/// arguments that it knows, but most of a shader's compile time.
+enum class LibraryCalls : uint8_t {
+  None,  ///< none: for code that leaves this process, or must be as fast as can be
+  Large, ///< those that are not small, where a shader has more of them than a budget
+  All,   ///< those that are not small
+};
+
 struct Options {
   Precision precision = Precision::F32;
   unsigned width = 0;                      ///< 0: the best for the target
@@ -19,7 +28,8 @@ struct Options {
   std::string cpu = "native";              ///< "native" or a name of LLVM's
   std::string triple;                      ///< empty: this machine's
   std::vector<std::string> uniform_inputs; ///< by name of the parameter
-  bool prints = false;                     ///< emit `print` (print.h); for one lane
+  LibraryCalls library_calls = LibraryCalls::None;
+  bool prints = false; ///< emit `print` (print.h); for one lane
 };
 
 struct CInterface;
@@ -52,6 +62,8 @@ struct CodeInfo {
   std::vector<FaultPlaceInfo> places; ///< by fault site
   std::vector<PrintPlaceInfo> prints; ///< where prints are emitted
   uint64_t print_slot = 0;            ///< where the sink's address lies, behind constants_size bytes of constants
+  uint64_t image_slot = 0;            ///< and behind it that of the images (images.h)
+  uint64_t block_size() const { return constants_size + 2 * sizeof(void*); } ///< with these two
 };
 
 struct Times {
@@ -71,6 +83,7 @@ public:
   uint64_t exceeded_limit = 0;
   CodeInfo info;
   Times times;
+  bool runs_here = false; ///< this machine has what the code needs
 
   std::string llvm_text() const;
   std::string assembly();
@@ -84,6 +97,9 @@ public:
 };
 
 Generated generate(const ir::Module& module, const Options& options);
+
+/// All of the target that generated code depends on: triple, processor and features.
+std::string describe_target(const std::string& cpu, const std::string& triple);
 
 /// The lane count that suits this machine best.
 unsigned native_width(Precision precision);

@@ -58,7 +58,7 @@ const FunctionFacts& ModuleEmitter::facts(ir::FunctionId function, const ir::Sig
   auto& facts = facts_[{function, signature}];
   if (facts == nullptr) {
     const ir::Uniformity& uniformity = ir::analyse_uniformity(module, function, signature, uniformity_);
-    facts = std::make_unique<FunctionFacts>(function_facts(module.functions[function], uniformity));
+    facts = std::make_unique<FunctionFacts>(function_facts(module.functions[function], uniformity, module.step_limit));
   }
   return *facts;
 }
@@ -128,9 +128,10 @@ void FunctionEmitter::enter_homes(const ir::Block& block) {
     if (activation_->facts->homes[id] != &block) continue;
     const ir::Variable& variable = activation_->function->variables[id];
     Slot& slot = activation_->variables[id];
-    slot =
-        make_slot(variable.type, variable.count, activation_->facts->uniformity->variable_varying[id], variable.name);
+    slot = make_slot(variable.type, variable.count, activation_->facts->uniformity->variable_varying[id], variable.name,
+                     activation_->facts->narrow[id]);
     slot.home = masks.depth();
+    slot.last_loop = activation_->facts->last_loops[id];
     zero_slot(slot);
   }
 }
@@ -200,7 +201,7 @@ void FunctionEmitter::emit(ir::ValueId id, const ir::Instruction& instruction) {
     return set(id, {{operand(0).parts[instruction.index]}});
   case Op::CallLibrary:
   case Op::Call: {
-    std::vector<Lanes> results = instruction.op == Op::Call ? call(id, instruction) : call_library(instruction);
+    std::vector<Lanes> results = instruction.op == Op::Call ? call(id, instruction) : call_library(id, instruction);
     if (!results.empty()) set(id, results[0]);
     activation_->call_results[id] = std::move(results);
     return;

@@ -1,15 +1,22 @@
 // Calls of the library's exports and of functions of the module (emitter.h).
 #include "compiler/codegen/emitter.h"
 
+#include "stdlib/images.h"
+
 namespace moonshade::codegen {
 
 // --------------------------------------------------------------------------------------------------------- Library
 
 namespace {
 
-/// The body of a function by value around an export, which takes pointers (library.h).
+/// All results of a row, as bits.
+constexpr uint32_t kAllResults = ~0U;
+bool is_wanted(uint32_t wanted, unsigned result) { return result >= 32 || (wanted >> result & 1) != 0; }
+
+/// The body of a function by value around an export, which takes pointers (library.h). Results that nobody wants are
+/// zero.
 void write_wrapper(llvm::Function& wrapper, llvm::Function& body, const LibraryFunction& row, const Domain& domain,
-                   bool varying) {
+                   bool varying, uint32_t wanted) {
   Builder builder(llvm::BasicBlock::Create(domain.context, "entry", &wrapper));
   const auto memory = [&](ValueType type) {
     return builder.CreateAlloca(llvm::ArrayType::get(domain.memory_part(type, varying), component_count(type)));
@@ -19,7 +26,10 @@ void write_wrapper(llvm::Function& wrapper, llvm::Function& body, const LibraryF
   };
   std::vector<llvm::Value*> pointers;
   for (unsigned i = 0; i < row.result_count; ++i)
-    pointers.push_back(memory(row.results[i]));
+    if (is_wanted(wanted, i))
+      pointers.push_back(memory(row.results[i]));
+    else
+      pointers.push_back(llvm::ConstantPointerNull::get(builder.getPtrTy()));
   llvm::Argument* argument = wrapper.arg_begin();
   for (unsigned i = 0; i < row.parameter_count; ++i) {
     const ValueType type = row.parameters[i];
@@ -31,10 +41,11 @@ void write_wrapper(llvm::Function& wrapper, llvm::Function& body, const LibraryF
   llvm::Value* result = llvm::Constant::getNullValue(wrapper.getReturnType());
   unsigned part = 0;
   for (unsigned i = 0; i < row.result_count; ++i)
-    for (unsigned c = 0; c < component_count(row.results[i]); ++c) {
+    for (unsigned c = 0; c < component_count(row.results[i]); ++c, ++part) {
+      if (!is_wanted(wanted, i)) continue;
       llvm::Value* loaded =
           builder.CreateLoad(domain.memory_part(row.results[i], varying), element(row.results[i], pointers[i], c));
-      result = builder.CreateInsertValue(result, from_memory(builder, row.results[i], loaded), part++);
+      result = builder.CreateInsertValue(result, from_memory(builder, row.results[i], loaded), part);
     }
   builder.CreateRet(result);
 }
@@ -117,13 +128,16 @@ void write_lane_loop(llvm::Function& wrapper, llvm::Function& body, const Librar
 
 } // namespace
 
-llvm::Function* ModuleEmitter::library_function(const LibraryFunction& row, bool varying) {
+llvm::Function* ModuleEmitter::library_function(const LibraryFunction& row, bool varying, uint32_t wanted) {
+  const uint32_t all = row.result_count < 32 ? (1U << row.result_count) - 1 : kAllResults;
+  if ((wanted & all) == all || is_derivative_export(row.symbol)) wanted = kAllResults; // derivatives take no null
   const bool lane_by_lane = export_order(row.symbol) == 2;
   const unsigned width = varying ? domain.width : 1;
   const char* representation = domain.precision == Precision::F32 ? "f32" : "f64";
   const std::string prefix = std::string(row.symbol) + "_" + representation + "_w";
   const std::string name = prefix + std::to_string(width);
-  if (llvm::Function* known = llvm_module.getFunction("moonshade_" + name)) return known;
+  const std::string own_name = "moonshade_" + name + (wanted == kAllResults ? "" : "_" + std::to_string(wanted & all));
+  if (llvm::Function* known = llvm_module.getFunction(own_name)) return known;
   llvm::Type* pointer = llvm::PointerType::get(domain.context, 0);
   const size_t count =
       lane_by_lane ? 1 + LibraryFunction::kMaxParameters : size_t{row.result_count} + row.parameter_count;
@@ -138,7 +152,7 @@ llvm::Function* ModuleEmitter::library_function(const LibraryFunction& row, bool
   for (unsigned i = 0; i < row.parameter_count; ++i)
     parameters.insert(parameters.end(), component_count(row.parameters[i]), domain.part(row.parameters[i], varying));
   llvm::Type* result = returned_struct(domain, std::move(results));
-  llvm::Function* wrapper = new_function(llvm::FunctionType::get(result, parameters, false), "moonshade_" + name, true);
+  llvm::Function* wrapper = new_function(llvm::FunctionType::get(result, parameters, false), own_name, true);
   // Pure and total, so calls of it can be merged and moved before anything is inlined.
   wrapper->setDoesNotAccessMemory();
   wrapper->setWillReturn();
@@ -147,13 +161,14 @@ llvm::Function* ModuleEmitter::library_function(const LibraryFunction& row, bool
     wrapper->addFnAttr(llvm::Attribute::NoInline); // it is long, and not worth repeating
     write_lane_loop(*wrapper, *body, row, domain, varying);
   } else {
-    write_wrapper(*wrapper, *body, row, domain, varying);
+    write_wrapper(*wrapper, *body, row, domain, varying, wanted);
   }
   return wrapper;
 }
 
 /// One call of a library function; on one lane where nothing varies.
-std::vector<Lanes> FunctionEmitter::library_call(const LibraryFunction& row, const std::vector<Lanes>& arguments) {
+std::vector<Lanes> FunctionEmitter::library_call(const LibraryFunction& row, const std::vector<Lanes>& arguments,
+                                                 uint32_t wanted) {
   bool varying = false;
   for (const Lanes& argument : arguments)
     varying |= argument.varying();
@@ -161,7 +176,7 @@ std::vector<Lanes> FunctionEmitter::library_call(const LibraryFunction& row, con
   for (const Lanes& argument : arguments)
     for (llvm::Value* part : argument.parts)
       operands.push_back(varying ? broadcast(builder, domain_, part) : part);
-  llvm::Value* result = builder.CreateCall(owner_.library_function(row, varying), operands);
+  llvm::Value* result = builder.CreateCall(owner_.library_function(row, varying, wanted), operands);
   std::vector<Lanes> results(row.result_count);
   unsigned part = 0;
   for (unsigned i = 0; i < row.result_count; ++i)
@@ -170,19 +185,22 @@ std::vector<Lanes> FunctionEmitter::library_call(const LibraryFunction& row, con
   return results;
 }
 
-std::vector<Lanes> FunctionEmitter::call_library(const ir::Instruction& instruction) {
+std::vector<Lanes> FunctionEmitter::call_library(ir::ValueId id, const ir::Instruction& instruction) {
   const LibraryFunction& row = *instruction.library;
+  if (is_texture(row)) return texture(instruction);
+  const auto further = activation_->facts->further_results.find(id);
+  const uint32_t wanted = further == activation_->facts->further_results.end() ? 1 : further->second | 1;
   std::vector<Lanes> arguments;
   for (const ir::ValueId operand : instruction.operands)
     arguments.push_back(value(operand));
-  if (!row.componentwise || !is_vector(instruction.type)) return library_call(row, arguments);
+  if (!row.componentwise || !is_vector(instruction.type)) return library_call(row, arguments, wanted);
   // By component: a number beside a vector counts for each.
   Lanes result;
   for (unsigned c = 0; c < component_count(instruction.type); ++c) {
     std::vector<Lanes> components;
     for (const Lanes& argument : arguments)
       components.push_back({{argument.parts[argument.parts.size() == 1 ? 0 : c]}});
-    result.parts.push_back(library_call(row, components)[0].parts[0]);
+    result.parts.push_back(library_call(row, components, wanted)[0].parts[0]);
   }
   return {result};
 }

@@ -12,8 +12,9 @@ constexpr uint64_t kClearedParts = 32;
 
 // ------------------------------------------------------------------------------------------------------- Variables
 
-Slot FunctionEmitter::make_slot(ValueType type, uint32_t count, bool varying, const std::string& name) {
+Slot FunctionEmitter::make_slot(ValueType type, uint32_t count, bool varying, const std::string& name, bool narrow) {
   Slot slot{type, count, varying && domain_.width > 1, 0, {}};
+  slot.narrow = narrow && slot.varying;
   llvm::Type* element = element_type(slot);
   llvm::Type* memory = count == 1 ? element : llvm::ArrayType::get(element, count);
   for (unsigned c = 0; c < component_count(type); ++c)
@@ -23,6 +24,7 @@ Slot FunctionEmitter::make_slot(ValueType type, uint32_t count, bool varying, co
 
 /// Plain variables mostly become registers and hold booleans as i1; arrays have addressable elements.
 llvm::Type* FunctionEmitter::element_type(const Slot& slot) const {
+  if (slot.narrow) return domain_.lanes(llvm::Type::getInt32Ty(domain_.context));
   return slot.count == 1 ? domain_.part(slot.type, slot.varying) : domain_.memory_part(slot.type, slot.varying);
 }
 
@@ -36,8 +38,11 @@ void FunctionEmitter::zero_slot(const Slot& slot) {
 
 Lanes FunctionEmitter::load_slot(const Slot& slot) {
   Lanes lanes;
-  for (llvm::Value* part : slot.parts)
-    lanes.parts.push_back(builder.CreateLoad(element_type(slot), part));
+  for (llvm::Value* part : slot.parts) {
+    llvm::Value* loaded = builder.CreateLoad(element_type(slot), part);
+    if (slot.narrow) loaded = builder.CreateSExt(loaded, domain_.lanes(builder.getInt64Ty()));
+    lanes.parts.push_back(loaded);
+  }
   return lanes;
 }
 
@@ -46,7 +51,8 @@ void FunctionEmitter::store_slot(const Slot& slot, const Lanes& lanes) {
     llvm::Value* part = lanes.parts[c];
     if (slot.varying) {
       part = broadcast(builder, domain_, part);
-      if (!masks.plain_store(slot.home))
+      if (slot.narrow) part = builder.CreateTrunc(part, element_type(slot));
+      if (!masks.plain_store(slot.home, slot.last_loop))
         part = masks.blend(part, builder.CreateLoad(element_type(slot), slot.parts[c]));
     }
     builder.CreateStore(part, slot.parts[c]);
@@ -114,7 +120,7 @@ void FunctionEmitter::store_element(const Slot& slot, const Lanes& index, const 
     }
     llvm::Type* type = element_type(slot);
     llvm::Value* address = builder.CreateInBoundsGEP(type, slot.parts[c], clamped);
-    if (slot.varying && !masks.plain_store(slot.home)) part = masks.blend(part, builder.CreateLoad(type, address));
+    if (slot.varying && !masks.plain_store(slot.home, slot.last_loop)) part = masks.blend(part, builder.CreateLoad(type, address));
     builder.CreateStore(part, address);
   }
 }

@@ -60,6 +60,8 @@ struct Slot {
   bool varying = false;
   Masks::Depth home = 0;
   llvm::SmallVector<llvm::Value*, 4> parts;
+  ir::LabelId last_loop = ir::kNone; ///< FunctionFacts::last_loops
+  bool narrow = false;               ///< lanes of 32 bits for 64 (FunctionFacts::narrow)
 };
 
 /// Memory for the faults of a block of points; null pointers where the program cannot fault.
@@ -84,7 +86,8 @@ public:
   /// The LLVM function of an outlined function of the IR.
   llvm::Function* outlined(ir::FunctionId function, const ir::Signature& signature);
   /// The library function for lanes or, with `varying` false, for one value: by value, pure.
-  llvm::Function* library_function(const LibraryFunction& row, bool varying);
+  /// `wanted`: a bit for each of the row's results that is used.
+  llvm::Function* library_function(const LibraryFunction& row, bool varying, uint32_t wanted);
   /// The type of the results, as outlined functions give them back.
   llvm::Type* results_type(const ir::Function& function, const ir::Uniformity& uniformity) const;
   uint32_t place(const ir::Instruction& instruction) const { return places_.numbers.at(&instruction); }
@@ -101,6 +104,7 @@ public:
   /// Prints are emitted: where they are collected, and where code finds the sink.
   std::vector<PrintPlaceInfo>* prints = nullptr;
   uint64_t print_slot = 0;
+  uint64_t image_slot = 0; ///< where code finds the instance's images
   /// While the init function is emitted, globals are not constant.
   bool constants_are_final = true;
 
@@ -161,7 +165,7 @@ private:
   void set(ir::ValueId id, Lanes lanes) { activation_->values[id] = std::move(lanes); }
 
   // emit_memory.cpp
-  Slot make_slot(ValueType type, uint32_t count, bool varying, const std::string& name);
+  Slot make_slot(ValueType type, uint32_t count, bool varying, const std::string& name, bool narrow = false);
   llvm::Type* element_type(const Slot& slot) const;
   Lanes load_slot(const Slot& slot);
   void store_slot(const Slot& slot, const Lanes& lanes);
@@ -186,8 +190,9 @@ private:
   llvm::Value* compare(ir::Op op, ValueType type, llvm::Value* a, llvm::Value* b);
 
   // emit_calls.cpp
-  std::vector<Lanes> call_library(const ir::Instruction& instruction);
-  std::vector<Lanes> library_call(const LibraryFunction& row, const std::vector<Lanes>& arguments);
+  std::vector<Lanes> call_library(ir::ValueId id, const ir::Instruction& instruction);
+  std::vector<Lanes> texture(const ir::Instruction& instruction); // emit_images.cpp
+  std::vector<Lanes> library_call(const LibraryFunction& row, const std::vector<Lanes>& arguments, uint32_t wanted);
   std::vector<Lanes> call(ir::ValueId id, const ir::Instruction& instruction);
   std::vector<Lanes> call_outlined(ir::FunctionId callee, const ir::Signature& signature,
                                    const std::vector<Lanes>& arguments, const std::vector<Slot>& captures);

@@ -1,7 +1,10 @@
 // Walks over functions of the IR that gather facts for emission (facts.h).
 #include "compiler/codegen/facts.h"
 
+#include "compiler/ir/narrow.h"
+
 #include <algorithm>
+#include <optional>
 
 namespace moonshade::codegen {
 
@@ -23,11 +26,25 @@ public:
     path_.pop_back();
   }
   void finish() {
-    for (size_t i = 0; i < homes_.size(); ++i)
-      if (!homes_[i].empty()) facts_.homes[i] = homes_[i].back();
+    for (size_t i = 0; i < homes_.size(); ++i) {
+      if (homes_[i].empty()) continue;
+      facts_.homes[i] = homes_[i].back();
+      if (!reads_[i]) continue;
+      // The outermost loop within the home.
+      const auto inside = [&](const OpenLoop& loop) { return loop.depth >= homes_[i].size(); };
+      const auto loop = std::ranges::find_if(*reads_[i], inside);
+      if (loop != reads_[i]->end()) facts_.last_loops[i] = loop->label;
+    }
   }
 
+  struct OpenLoop {
+    ir::LabelId label;
+    size_t depth; ///< of its body in the path
+    bool operator==(const OpenLoop&) const = default;
+  };
   std::vector<std::vector<const ir::Block*>> homes_; ///< by variable: path to the home so far
+  /// By variable: the loops around all its reads so far; nothing before the first.
+  std::vector<std::optional<std::vector<OpenLoop>>> reads_;
 
 private:
   bool varying(ir::ValueId id) const { return facts_.uniformity->control_varying[id]; }
@@ -35,25 +52,34 @@ private:
   void visit(ir::ValueId id, const ir::Instruction& instruction) {
     switch (instruction.op) {
     case Op::Load:
-    case Op::Store:
     case Op::LoadElement:
+      read(instruction.index, loops_);
+      [[fallthrough]];
+    case Op::Store:
     case Op::StoreElement:
       access(instruction.index);
       break;
     case Op::Call:
-      for (const ir::VariableId variable : instruction.variables)
+      for (const ir::VariableId variable : instruction.variables) {
+        read(variable, {}); // the function called has labels of its own
         access(variable);
+      }
       break;
     case Op::Loop:
     case Op::Scope:
       facts_.labels[instruction.index].varying = varying(id);
       targets_.push_back(instruction.index);
+      if (instruction.op == Op::Loop) loops_.push_back({instruction.index, path_.size()});
       walk(instruction.blocks[0]);
+      if (instruction.op == Op::Loop) loops_.pop_back();
       targets_.pop_back();
       break;
     case Op::If:
       for (const ir::Block& block : instruction.blocks)
         walk(block);
+      break;
+    case Op::Result:
+      if (instruction.index < 32) facts_.further_results[instruction.operands[0]] |= 1U << instruction.index;
       break;
     case Op::Break:
       if (varying(id)) bypass(instruction.index);
@@ -72,6 +98,13 @@ private:
       facts_.labels[targets_[i]].bypassed = true;
   }
 
+  void read(ir::VariableId variable, const std::vector<OpenLoop>& loops) {
+    auto& common = reads_[variable];
+    if (!common) common = loops;
+    const auto end = std::ranges::mismatch(*common, loops).in1;
+    common->erase(end, common->end());
+  }
+
   void access(ir::VariableId variable) {
     auto& home = homes_[variable];
     if (home.empty()) {
@@ -88,6 +121,7 @@ private:
   FunctionFacts& facts_;
   std::vector<const ir::Block*> path_;
   std::vector<ir::LabelId> targets_;
+  std::vector<OpenLoop> loops_;
 };
 
 /// Visits every function after those it calls.
@@ -115,16 +149,19 @@ private:
 
 } // namespace
 
-FunctionFacts function_facts(const ir::Function& function, const ir::Uniformity& uniformity) {
+FunctionFacts function_facts(const ir::Function& function, const ir::Uniformity& uniformity, uint64_t step_limit) {
   FunctionFacts facts;
   facts.uniformity = &uniformity;
   facts.labels.resize(function.next_label);
   facts.homes.resize(function.variables.size());
   FactsWalk walk(function, facts);
   walk.homes_.resize(function.variables.size());
+  walk.reads_.resize(function.variables.size());
+  facts.last_loops.assign(function.variables.size(), ir::kNone);
   walk.walk(function.body);
   walk.finish();
   std::fill_n(facts.homes.begin(), function.captures, nullptr);
+  facts.narrow = ir::narrow_variables(function, step_limit);
   return facts;
 }
 

@@ -6,6 +6,7 @@
 #include "compiler/ir/ir.h"
 #include "compiler/ir/uniformity.h"
 
+#include <unordered_map>
 #include <vector>
 
 namespace moonshade::codegen {
@@ -16,9 +17,16 @@ struct FunctionFacts {
   TargetFacts function;
   /// By VariableId; null: a capture, or never accessed.
   std::vector<const ir::Block*> homes;
+  /// By VariableId: a loop that holds all reads of the variable and that lanes enter once in the life of its home, so that
+  /// lanes which have left it never read the variable again; kNone: there is none.
+  std::vector<ir::LabelId> last_loops;
+  /// By VariableId: an integer that 32 bits hold.
+  std::vector<bool> narrow;
+  /// Of calls of the library: a bit for each result from the second on that something uses.
+  std::unordered_map<ir::ValueId, uint32_t> further_results;
 };
 
-FunctionFacts function_facts(const ir::Function& function, const ir::Uniformity& uniformity);
+FunctionFacts function_facts(const ir::Function& function, const ir::Uniformity& uniformity, uint64_t step_limit);
 
 /// Instructions of the IR that a call of each function comes to when its callees are emitted in place, and which
 /// functions are too big for that and get LLVM functions of their own.

@@ -1,6 +1,8 @@
 // Links the library's bitcode, lazily (link.h). The bitcode is optimised already.
 #include "compiler/codegen/link.h"
 
+#include "stdlib/native_library.h"
+
 #include <llvm/Bitcode/BitcodeReader.h>
 #include <llvm/Linker/Linker.h>
 #include <llvm/Support/Error.h>
@@ -24,11 +26,8 @@ bool needs_width(const llvm::Module& module, unsigned width, unsigned order) {
   return false;
 }
 
-void link_width(llvm::Module& module, Precision precision, unsigned width, unsigned order, std::string& error) {
-  if (!error.empty() || !needs_width(module, width, order)) return;
-  const std::span<const char> bitcode = order == 2   ? second_derivative_bitcode(precision)
-                                        : order == 1 ? derivative_bitcode(precision, width)
-                                                     : library_bitcode(precision, width);
+/// Defines what the module lacks and the bitcode has.
+void link_bitcode(llvm::Module& module, std::span<const char> bitcode, std::string& error) {
   const llvm::MemoryBufferRef buffer(llvm::StringRef(bitcode.data(), bitcode.size()), "library");
   auto library = llvm::getLazyBitcodeModule(buffer, module.getContext());
   if (!library) {
@@ -39,6 +38,19 @@ void link_width(llvm::Module& module, Precision precision, unsigned width, unsig
   (*library)->setDataLayout(module.getDataLayout());
   if (llvm::Linker::linkModules(module, std::move(*library), llvm::Linker::LinkOnlyNeeded))
     error = "the library's bitcode cannot be linked";
+}
+
+void link_width(llvm::Module& module, Precision precision, unsigned width, unsigned order, std::string& error) {
+  const auto needed = [&] { return error.empty() && needs_width(module, width, order); };
+  // First from what is soon read.
+  const std::span<const char> small = small_bitcode(precision, width, order == 1);
+  if (order < 2 && !small.empty() && needed()) link_bitcode(module, small, error);
+  if (!needed()) return;
+  link_bitcode(module,
+               order == 2   ? second_derivative_bitcode(precision)
+               : order == 1 ? derivative_bitcode(precision, width)
+                            : library_bitcode(precision, width),
+               error);
 }
 
 } // namespace

@@ -316,11 +316,13 @@ void Masks::leave_loop_unless(llvm::Value* live) {
 
 // ---------------------------------------------------------------------------------------------------------- Stores
 
-bool Masks::plain_store(Depth home) const {
+bool Masks::plain_store(Depth home, ir::LabelId last) const {
   if (active_.kind == Kind::Full) return true;
   if (home == kOutside) return false;
-  for (size_t i = home; i < frames_.size(); ++i)
-    if (frames_[i].kind == FrameKind::VaryingIf || frames_[i].facts.varying) return false;
+  for (size_t i = home; i < frames_.size(); ++i) {
+    const bool is_last = last != ir::kNone && frames_[i].kind == FrameKind::Loop && frames_[i].label == last;
+    if (frames_[i].kind == FrameKind::VaryingIf || (frames_[i].facts.varying && !is_last)) return false;
+  }
   return true;
 }
 

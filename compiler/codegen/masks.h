@@ -91,7 +91,8 @@ public:
   static constexpr Depth kOutside = SIZE_MAX;
   Depth depth() const { return frames_.size(); }
   /// Whether a store here to a variable whose home was entered at `home` may overwrite all lanes.
-  bool plain_store(Depth home) const;
+  /// Lanes that have left the loop `last` are none that could see it.
+  bool plain_store(Depth home, ir::LabelId last = ir::kNone) const;
   /// What to store so that switched-off lanes keep `old`.
   llvm::Value* blend(llvm::Value* value, llvm::Value* old);
 

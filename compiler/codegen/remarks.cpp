@@ -2,7 +2,7 @@
 #include "compiler/codegen/remarks.h"
 
 #include "compiler/codegen/facts.h"
-#include "compiler/codegen/target.h"
+#include "compiler/codegen/width.h"
 #include "compiler/ir/walk.h"
 
 #include <algorithm>
@@ -81,10 +81,10 @@ private:
 std::string report_remarks(const ir::Module& module, const Options& options, Diagnostics& diagnostics) {
   const Target target = make_target({options.cpu, options.triple, options.optimization});
   if (!target.error.empty()) return target.error;
-  const unsigned width = options.width != 0 ? options.width : best_width(target, options.precision);
+  const auto [width, why] = choose_width(module, target, options);
   diagnostics.report(Code::Width, Span{},
                      {std::to_string(width), options.precision == Precision::F32 ? "f32" : "f64", target.cpu,
-                      std::to_string(target.vector_bits), options.width != 0 ? "as asked" : "chosen"});
+                      std::to_string(target.vector_bits), why});
   if (width == 1) return "";
   Remarks remarks(module, diagnostics);
   for (const ir::Entry& entry : module.entries)

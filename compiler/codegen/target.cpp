@@ -1,6 +1,8 @@
 // Sets up LLVM's targets once for the process, and target machines from options.
 #include "compiler/codegen/target.h"
 
+#include "compiler/codegen/codegen.h"
+
 #include <llvm/ADT/StringMap.h>
 #include <llvm/MC/MCSubtargetInfo.h>
 #include <llvm/MC/TargetRegistry.h>
@@ -8,9 +10,12 @@
 #include <llvm/TargetParser/Host.h>
 #include <llvm/TargetParser/SubtargetFeature.h>
 #include <llvm/TargetParser/Triple.h>
+#include <llvm/TargetParser/X86TargetParser.h>
 
 #include <algorithm>
 #include <mutex>
+#include <utility>
+#include <vector>
 
 namespace moonshade::codegen {
 
@@ -27,11 +32,45 @@ void initialise_llvm() {
   });
 }
 
-std::string host_features() {
-  llvm::SubtargetFeatures features;
-  for (const auto& feature : llvm::sys::getHostCPUFeatures())
-    features.AddFeature(feature.getKey(), feature.getValue());
-  return features.getString();
+const std::string& host_features() {
+  static const std::string text = [] {
+    llvm::SubtargetFeatures features;
+    for (const auto& feature : llvm::sys::getHostCPUFeatures())
+      features.AddFeature(feature.getKey(), feature.getValue());
+    return features.getString();
+  }();
+  return text;
+}
+
+/// Machines that nobody uses at the moment. Making one, and what it works out about its processor, takes longer than
+/// small shaders do.
+class IdleMachines {
+public:
+  std::unique_ptr<llvm::TargetMachine> take(const std::string& key) {
+    const std::scoped_lock lock(mutex_);
+    const auto found = std::ranges::find(machines_, key, &Machine::first);
+    if (found == machines_.end()) return nullptr;
+    std::unique_ptr<llvm::TargetMachine> machine = std::move(found->second);
+    machines_.erase(found);
+    return machine;
+  }
+  void give_back(std::string key, std::unique_ptr<llvm::TargetMachine> machine) {
+    const std::scoped_lock lock(mutex_);
+    if (machines_.size() >= kMost) machines_.erase(machines_.begin());
+    machines_.emplace_back(std::move(key), std::move(machine));
+  }
+
+private:
+  static constexpr size_t kMost = 8;
+  using Machine = std::pair<std::string, std::unique_ptr<llvm::TargetMachine>>;
+  std::mutex mutex_;
+  std::vector<Machine> machines_;
+};
+
+/// Lives as long as the process: threads may give machines back while it ends.
+IdleMachines& idle_machines() {
+  static auto* machines = new IdleMachines;
+  return *machines;
 }
 
 llvm::CodeGenOptLevel code_generation_level(int optimization) {
@@ -57,6 +96,13 @@ llvm::TargetOptions strict_options() {
   return options;
 }
 
+/// Whether this machine has all that the processor has.
+bool runs_here(const llvm::MCSubtargetInfo& processor) {
+  for (const auto& feature : llvm::sys::getHostCPUFeatures())
+    if (!feature.getValue() && processor.checkFeatures(("+" + feature.getKey()).str())) return false;
+  return true;
+}
+
 bool has_feature(const llvm::TargetMachine& machine, const char* feature) {
   return machine.getMCSubtargetInfo()->checkFeatures(std::string("+") + feature);
 }
@@ -71,18 +117,19 @@ unsigned widest_vector(const llvm::TargetMachine& machine) {
 
 } // namespace
 
-Target make_target(const TargetOptions& options) {
-  Target target;
+namespace {
+
+/// Names the target; without its machine.
+const llvm::Target* name_target(const TargetOptions& options, Target& target, std::string& name) {
   initialise_llvm();
   const std::string host = llvm::sys::getProcessTriple();
-  const std::string name = options.triple.empty() ? host : llvm::Triple::normalize(options.triple);
-  const llvm::Triple triple(name);
-  const bool same_machine = triple.getArch() == llvm::Triple(host).getArch();
+  name = options.triple.empty() ? host : llvm::Triple::normalize(options.triple);
+  const bool same_machine = llvm::Triple(name).getArch() == llvm::Triple(host).getArch();
   std::string error;
   const llvm::Target* llvm_target = llvm::TargetRegistry::lookupTarget(name, error);
   if (llvm_target == nullptr) {
     target.error = "unknown target '" + options.triple + "'";
-    return target;
+    return nullptr;
   }
   if (options.cpu == "native") {
     target.native = options.triple.empty() || name == host;
@@ -92,19 +139,57 @@ Target make_target(const TargetOptions& options) {
     std::unique_ptr<llvm::MCSubtargetInfo> known(llvm_target->createMCSubtargetInfo(name, "", ""));
     if (known == nullptr || !known->isCPUStringValid(options.cpu)) {
       target.error = "unknown CPU '" + options.cpu + "' for target '" + name + "'";
-      return target;
+      return nullptr;
     }
     target.cpu = options.cpu;
+    target.native = (options.triple.empty() || name == host) && runs_here(*known);
   }
-  target.machine.reset(llvm_target->createTargetMachine(name, target.cpu, target.features, strict_options(),
-                                                        llvm::Reloc::PIC_, llvm::CodeModel::Small,
-                                                        code_generation_level(options.optimization)));
-  if (target.machine == nullptr) {
+  return llvm_target;
+}
+
+std::string key_of(const Target& target, const std::string& name) {
+  return name + '|' + target.cpu + '|' + target.features;
+}
+
+} // namespace
+
+std::string describe_target(const std::string& cpu, const std::string& triple) {
+  Target target;
+  std::string name;
+  name_target({cpu, triple}, target, name);
+  return key_of(target, name);
+}
+
+Target make_target(const TargetOptions& options) {
+  Target target;
+  std::string name;
+  const llvm::Target* llvm_target = name_target(options, target, name);
+  if (llvm_target == nullptr) return target;
+  const llvm::CodeGenOptLevel level = code_generation_level(options.optimization);
+  std::string key = key_of(target, name);
+  std::unique_ptr<llvm::TargetMachine> machine = idle_machines().take(key);
+  if (machine == nullptr)
+    machine.reset(llvm_target->createTargetMachine(name, target.cpu, target.features, strict_options(),
+                                                   llvm::Reloc::PIC_, llvm::CodeModel::Small, level));
+  if (machine == nullptr) {
     target.error = "no code can be made for target '" + name + "'";
     return target;
   }
+  machine->setOptLevel(level);
+  target.machine = {machine.release(), [key = std::move(key)](llvm::TargetMachine* idle) {
+                      idle_machines().give_back(key, std::unique_ptr<llvm::TargetMachine>(idle));
+                    }};
   target.vector_bits = widest_vector(*target.machine);
   return target;
+}
+
+bool runs_code_of(const Target& target, std::string_view processor) {
+  if (processor.empty()) return true;
+  llvm::SmallVector<llvm::StringRef, 64> features;
+  llvm::X86::getFeaturesForCPU(llvm::StringRef(processor.data(), processor.size()), features);
+  return std::ranges::all_of(features, [&](llvm::StringRef feature) {
+    return feature == "64bit" || has_feature(*target.machine, feature.str().c_str());
+  });
 }
 
 unsigned best_width(const Target& target, Precision precision) {

@@ -8,6 +8,7 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
 
 namespace moonshade::codegen {
 
@@ -18,7 +19,8 @@ struct TargetOptions {
 };
 
 struct Target {
-  std::unique_ptr<llvm::TargetMachine> machine;
+  /// Nobody else's meanwhile; goes back to those that are kept for the next compilation.
+  std::shared_ptr<llvm::TargetMachine> machine;
   std::string cpu;
   std::string features;
   unsigned vector_bits = 128; ///< of the widest registers that are worth using
@@ -28,7 +30,10 @@ struct Target {
 
 Target make_target(const TargetOptions& options);
 
-/// The lane count that suits the target best: one machine vector of the precision's numbers.
+/// Whether code for a processor of this name (NativeExports::processor) runs on the target.
+bool runs_code_of(const Target& target, std::string_view processor);
+
+/// The lane count of one machine vector of the precision's numbers. (What code is made for is choose_width's.)
 unsigned best_width(const Target& target, Precision precision);
 /// The same for this machine.
 unsigned native_width(Precision precision);

@@ -117,8 +117,8 @@ FunctionBuild::FunctionBuild(ModuleBuild& shared, const sema::Specialisation& sp
 void FunctionBuild::run() {
   const syntax::Function& source = *specialisation_.function;
   find_goto_targets(*source.body);
-  // Each call of a shader's function is a step of the point; the run of a file is none.
-  if (source.parent != nullptr) b_.step();
+  // Each call of a shader's function is a step of the point; the run of a file is none, nor one of the library's.
+  if (source.parent != nullptr && !specialisation_.is_library) b_.step();
   if (specialisation_.id == 0)
     for (const sema::Specialisation* module : shared_.program.modules)
       b_.call(module->id, {}, {}, captures_of(*module));

@@ -1,6 +1,7 @@
 // `build`, expressions: values in order of evaluation, calls, and what is evaluated only where Lua does.
 #include "compiler/ir/build_function.h"
 #include "compiler/ir/cost.h"
+#include "stdlib/images.h"
 
 #include <algorithm>
 #include <cmath>
@@ -505,6 +506,7 @@ FunctionBuild::Values FunctionBuild::call(const Expr& expr) {
     // What follows is not executed, but is translated: give it a value to go on with.
     return {known.type.is_value() ? b_.zero(known.type.value) : kNone};
   }
+  if (known.call == CallKind::Texture) return {texture(known, static_cast<const CallExpr&>(expr))};
   Values arguments;
   if (method != nullptr) arguments.push_back(evaluate(*method->object));
   const Values listed = evaluate_list(args);
@@ -541,10 +543,14 @@ FunctionBuild::Values FunctionBuild::call(const Expr& expr) {
 
 FunctionBuild::Values FunctionBuild::call_specialisation(const ExpressionFact& known, const Values& arguments) {
   const sema::Specialisation& callee = *known.callee;
-  Values passed;
+  Values passed, given = arguments;
+  const size_t trailing = known.trailing.size();
+  if (trailing != 0) given.resize(callee.parameters.size() - trailing);
+  for (const double number : known.trailing)
+    given.push_back(b_.number(number));
   for (size_t i = 0; i < callee.parameters.size(); ++i)
     if (const auto type = run_time_type(callee.parameters[i]))
-      passed.push_back(converted(i < arguments.size() ? arguments[i] : kNone, *type));
+      passed.push_back(converted(i < given.size() ? given[i] : kNone, *type));
   const std::vector<ValueType> results = run_time_types(callee.results);
   const ValueId call = b_.call(callee.id, results, std::move(passed), captures_of(callee));
   Values values;
@@ -688,6 +694,12 @@ ValueId FunctionBuild::to_integer(const ExpressionFact& known, ValueId argument)
   const ValueId ok = b_.result(call, 1, ValueType::Boolean);
   b_.fault(b_.unary(Op::Not, ok), FaultCode::IntegerRange);
   return call;
+}
+
+ValueId FunctionBuild::texture(const ExpressionFact& known, const CallExpr& expr) {
+  const Values operands = evaluate_list(sema::texture_operands(expr));
+  const ValueId width = operands.size() > 2 ? converted(operands[2], ValueType::Number) : b_.number(0);
+  return b_.call_library(texture_row(), ValueType::Vec4, {b_.integer(known.index), operands[1], width});
 }
 
 void FunctionBuild::assertion(const Expr& expr, std::span<Expr* const> args, ValueId condition) {

@@ -98,6 +98,7 @@ private:
   ValueId construct(ValueType type, const Values& arguments);
   ValueId integer_of(ValueId number);
   Values modf(ValueId argument);
+  ValueId texture(const sema::ExpressionFact& known, const syntax::CallExpr& expr);
   ValueId dynamic_component(const syntax::IndexExpr& expr);
   ValueId to_integer(const sema::ExpressionFact& known, ValueId argument);
   void assertion(const syntax::Expr& expr, std::span<syntax::Expr* const> args, ValueId condition);

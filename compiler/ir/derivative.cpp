@@ -91,6 +91,13 @@ private:
     if (tangent == kNone || is_one(factor)) return tangent;
     return is_one(tangent) ? factor : b_->binary(Op::Mul, factor, tangent);
   }
+  /// The slope of a function of the library times what its argument has: 0 where the function does not change, also
+  /// where the argument's derivative is infinite or none. `flat` keeps the comparison for other directions.
+  ValueId slope_product(ValueId slope, ValueId tangent, ValueId& flat) {
+    if (tangent == kNone || is_one(slope) || is_one(tangent)) return product(slope, tangent);
+    if (flat == kNone) flat = b_->compare(Op::Eq, slope, b_->number(0));
+    return b_->select(flat, b_->number(0), product(slope, tangent));
+  }
   ValueId sum(ValueId a, ValueId b) { return a == kNone ? b : b == kNone ? a : b_->binary(Op::Add, a, b); }
   ValueId difference(ValueId a, ValueId b) {
     if (b == kNone) return a;
@@ -437,12 +444,13 @@ ValueId Writer::differentiate_call(const LibraryFunction& row, unsigned paramete
         ValueId slope = kNone;
         for (unsigned r = 0; r < component_count(row.results[n]); ++r) {
           if ((derivative->used[index] >> r & 1) == 0) continue;
-          ValueId slope_component = kNone;
+          ValueId slope_component = kNone, flat = kNone;
           for (unsigned k = 0; k < kMaxDirections; ++k) {
             if (at(tangents[i], c, k) == kNone) continue;
             if (slope == kNone) slope = b_->result(made, row.result_count + index, row.results[n]);
             if (slope_component == kNone) slope_component = component(slope, r);
-            set(results[n], r, k, sum(at(results[n], r, k), product(slope_component, at(tangents[i], c, k))));
+            set(results[n], r, k,
+                sum(at(results[n], r, k), slope_product(slope_component, at(tangents[i], c, k), flat)));
           }
         }
       }
@@ -516,8 +524,10 @@ void Writer::derivative_call(ValueId id) {
         for (unsigned r = 0; r < component_count(function.results[slope_index]); ++r) {
           if ((call.used(index, column) >> r & 1) == 0) continue;
           const ValueId slope = component(b_->result(made, slope_index, function.results[slope_index]), r);
+          ValueId flat = kNone;
           for (unsigned k = 0; k < kMaxDirections; ++k)
-            set(results[index], r, k, sum(at(results[index], r, k), product(slope, tangent(operand, c, k))));
+            set(results[index], r, k,
+                sum(at(results[index], r, k), slope_product(slope, tangent(operand, c, k), flat)));
         }
       }
   }

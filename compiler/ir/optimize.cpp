@@ -33,6 +33,9 @@ void optimize(Module& module, Precision precision) {
   check(module, "fuse");
   remove_bounded_steps(module);
   check(module, "remove_bounded_steps");
+  for (Function& function : module.functions)
+    split_counters(function);
+  check(module, "split_counters");
   remove_unreachable(module); // calls behind folded ifs are gone
   check(module, "remove_unreachable");
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "compiler/ir/ir.h"
+#include "compiler/sema/shader_info.h"
 
 namespace moonshade::ir {
 
@@ -40,7 +41,14 @@ void fuse(Module& module);
 /// Removes all `step`s where no point can take more than Module::step_limit of them. (steps.cpp)
 void remove_bounded_steps(Module& module);
 
+/// Counters of loops that are read behind the loop, too: a second variable for the reads inside. (split_counters.cpp)
+void split_counters(Function& function);
+
 /// All passes in order; debug builds verify after each and abort where one broke a rule.
 void optimize(Module& module, Precision precision);
+
+/// Makes constants of the parameters of an optimised module: the values, by parameter, as they are stored into the
+/// parameters' globals (of a string its index).
+void bake_parameters(Module& module, const std::vector<Constant>& values);
 
 } // namespace moonshade::ir

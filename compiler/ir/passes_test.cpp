@@ -44,6 +44,22 @@ function f(a: integer) -> integer {
 )");
 }
 
+TEST(SplitCounters, GivesTheLoopACounterOfItsOwn) {
+  EXPECT_EQ(after(split_counters, {Boolean}, {Integer},
+                  [](Builder& b) {
+                    const VariableId n = b.variable("n", Integer);
+                    b.store(n, b.integer(0));
+                    const LabelId label = b.label();
+                    b.loop(label, b.block([&] {
+                      b.if_else(b.argument(0), b.block([&] { b.break_to(label); }));
+                      b.store(n, b.binary(Op::Add, b.load(n), b.integer(2)));
+                    }));
+                    b.return_values({b.load(n)});
+                  }),
+            R"(
+)");
+}
+
 TEST(Fold, FoldsNumbersOnlyWhereFloatAndDoubleAgree) {
   const auto folded = [](Op op, double x, double y) {
     return after(fold_constants, {}, {Number},

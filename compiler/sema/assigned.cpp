@@ -85,6 +85,7 @@ private:
   /// The variable of a name, where it can be unassigned; null otherwise.
   const void* tracked(const NameExpr& name) {
     if (name.local != nullptr) return context_.unset_locals.contains(name.local) ? name.local : nullptr;
+    if (context_.is_library_code(work_)) return nullptr; // whose top level has run, so to speak
     const Global* global = context_.globals.find(name.name);
     return global == nullptr || global->is_broken ? nullptr : global;
   }

@@ -4,6 +4,7 @@
 #include "compiler/sema/library_calls.h"
 #include "compiler/sema/names.h"
 #include "compiler/sema/walker.h"
+#include "stdlib/images.h"
 
 #include <algorithm>
 #include <set>
@@ -87,11 +88,15 @@ void Walker::refuse_rows(const CallExpr& expr, const Specialisation& function, s
   std::set<const LibraryFunction*> rows;
   std::set<std::pair<const Specialisation*, bool>> seen;
   collect_rows(function, true, rows, seen);
-  for (const LibraryFunction& row : library()) // in the library's order
-    if (rows.contains(&row) && !has_second_derivatives(row)) {
-      type_error(Code::NoSecondDerivative, expr.span, {std::string(name), std::string(row.name)});
-      return;
-    }
+  const auto is_refused = [&](const LibraryFunction& row) {
+    return rows.contains(&row) && !has_second_derivatives(row);
+  };
+  const auto found = std::ranges::find_if(library(), is_refused); // in the library's order
+  const LibraryFunction* refused = found != library().end()    ? &*found
+                                   : is_refused(texture_row()) ? &texture_row()
+                                                               : nullptr;
+  if (refused != nullptr)
+    type_error(Code::NoSecondDerivative, expr.span, {std::string(name), std::string(refused->name)});
 }
 
 TypeList Walker::derivative_call(const CallExpr& expr, std::string_view name) {

@@ -134,8 +134,10 @@ TypeList Walker::call_library(const CallExpr& expr, std::string_view name) {
   if (name == "math.modf") return modf(expr);
   if (is_derivative(name)) return derivative_call(expr, name);
   if (name == "print") return print(expr);
+  if (name == "texture") return texture_call(expr);
   const TypeList types = arguments(expr.args);
   if (types.open) return unknown_values();
+  if (is_sum(name, types)) return sum_call(expr, name, types);
   if (is_table_function(name, types)) return table_function(expr, name, types);
   return call_table_row(expr, name, {expr.args.begin(), expr.args.end()}, types.types);
 }

@@ -47,7 +47,7 @@ void check_typed(Context& context) {
 Program check(const syntax::Chunk& chunk, const Options& options, Diagnostics& diagnostics) {
   Program program;
   program.chunk = &chunk;
-  Context context(chunk, diagnostics, program);
+  Context context(chunk, options, diagnostics, program);
   Work* top = context.find_or_make({chunk.main, nullptr, true, nullptr, 0, {}}, chunk.main->span);
   context.top = top;
   collect_modules(context, options);

@@ -15,7 +15,8 @@ size_t WorkKeyHash::operator()(const WorkKey& key) const {
   return hash;
 }
 
-Context::Context(const syntax::Chunk& c, Diagnostics& d, Program& p) : chunk(c), diagnostics(d), program(p) {}
+Context::Context(const syntax::Chunk& c, const Options& options, Diagnostics& d, Program& p)
+    : chunk(c), diagnostics(d), program(p), load_library(options.load_library) {}
 
 std::vector<const syntax::Chunk*> Context::chunks() const {
   std::vector<const syntax::Chunk*> all = {&chunk};
@@ -35,7 +36,20 @@ Work* Context::top_level_of(const syntax::Function& function) const {
     at = at->parent;
   for (const Module& module : modules)
     if (module.chunk->main == at) return module.work;
-  return top;
+  return library_chunk && library_chunk->chunk->main == at ? library_chunk->work : top;
+}
+
+const syntax::Function* Context::library_function(std::string_view name) {
+  if (!library_chunk) {
+    const syntax::Chunk* loaded = load_library ? load_library() : nullptr;
+    if (loaded == nullptr) return nullptr;
+    library_chunk.emplace().chunk = loaded;
+    std::vector<const syntax::CallExpr*> requires_calls;
+    collect_globals(*loaded, library_chunk->globals, requires_calls);
+    library_chunk->work = find_or_make({loaded->main, nullptr, true, nullptr, 0, {}}, loaded->main->span);
+  }
+  const Global* global = library_chunk->globals.find(name);
+  return global != nullptr ? global->function : nullptr;
 }
 
 Work* Context::find_or_make(WorkKey key, Span place) {
@@ -152,6 +166,7 @@ void open_specialisation(Context& context, Work& work) {
   work.spec->function = work.function;
   work.spec->name = specialisation_name(context, work);
   work.spec->parameters = work.arguments;
+  work.spec->is_library = context.is_library_code(work);
   if (context.collect) {
     work.spec->id = static_cast<uint32_t>(context.program.specialisations.size());
     context.program.specialisations.push_back(std::move(work.owned));

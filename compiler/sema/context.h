@@ -10,6 +10,7 @@
 #include <deque>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <tuple>
@@ -30,6 +31,7 @@ inline constexpr uint64_t kMaxTableElements = 1 << 16;
 inline constexpr size_t kMaxRecordFields = 4096;
 /// Elements that constructors fill with what is no constant.
 inline constexpr uint64_t kMaxConstructedElements = 2048;
+inline constexpr size_t kMaxImages = 1024;
 inline constexpr uint64_t kMaxVisits = 100'000'000;
 /// How often what stands inside each other may be differentiated.
 inline constexpr unsigned kMaxDerivativeOrder = 2;
@@ -111,6 +113,13 @@ struct WorkKeyHash {
   size_t operator()(const WorkKey& key) const;
 };
 
+/// The library's own Lua. Its top level defines functions and never runs; its names are its own and the library's.
+struct LibraryChunk {
+  const syntax::Chunk* chunk = nullptr;
+  Globals globals;
+  Work* work = nullptr;
+};
+
 struct Context {
   const syntax::Chunk& chunk;
   Diagnostics& diagnostics;
@@ -124,7 +133,9 @@ struct Context {
     Span required{}; ///< first
     Work* work = nullptr;
   };
-  std::deque<Module> modules; ///< in the order in which they run
+  std::deque<Module> modules;                ///< in the order in which they run
+  std::optional<LibraryChunk> library_chunk; ///< once it is needed
+  const std::function<const syntax::Chunk*()>& load_library;
 
   std::unordered_map<WorkKey, std::unique_ptr<Work>, WorkKeyHash> works;
   std::vector<Work*> in_order; ///< of being made: hash tables have no order of their own
@@ -160,13 +171,22 @@ struct Context {
   std::unordered_map<std::string, unsigned> name_counts;
   Diagnostic silent; ///< takes the notes of messages that are not reported
 
-  Context(const syntax::Chunk& c, Diagnostics& d, Program& p);
+  Context(const syntax::Chunk& c, const Options& options, Diagnostics& d, Program& p);
 
   /// The shader's file and its modules.
   std::vector<const syntax::Chunk*> chunks() const;
   const Module* find_module(std::string_view name) const;
   /// The top level of the file in which a function stands.
   Work* top_level_of(const syntax::Function& function) const;
+  bool is_library_code(const Work& work) const {
+    return library_chunk && top_level_of(*work.function) == library_chunk->work;
+  }
+  /// The global variable or function that a name is for this function; null where there is none.
+  Global* find_global(const Work& work, std::string_view name) {
+    return (is_library_code(work) ? library_chunk->globals : globals).find(name);
+  }
+  /// A function of the library's own Lua; null where this host has none of it.
+  const syntax::Function* library_function(std::string_view name);
   /// In whose call that lives which one call hands over to another: what files make lives as long as the shader.
   Work* residence(Work* work) const { return work->function->parent == nullptr ? top : work; }
 

@@ -154,7 +154,7 @@ Type Walker::local_name(const NameExpr& expr) {
 
 Type Walker::global_name(const NameExpr& expr) {
   ExpressionFact fact;
-  if (Global* global = context_.globals.find(expr.name)) {
+  if (Global* global = context_.find_global(work_, expr.name)) {
     if (global->is_broken) return unknown_type();
     if (global->function != nullptr) {
       fact.name = NameKind::Function;

@@ -3,6 +3,7 @@
 #include "compiler/sema/luals.h"
 
 #include "stdlib/library.h"
+#include "stdlib/sums.h"
 
 #include <array>
 #include <cstdio>
@@ -93,6 +94,15 @@ function gradient(f, p) end
 ---@overload fun(x: number, values: vec4[]): vec4
 function ramp(x, values) end
 
+---Looks up an image: red, green, blue, alpha (1 where the file has none). v goes up, the image repeats.
+---@param file string a constant name, relative to this file, or a parameter
+---@param uv vec2
+---@param width? number width of the footprint, in the units of uv; 0 interpolates between four texels
+---@param options? { raw: boolean } raw: 8-bit files are not decoded from sRGB
+---@return vec4
+---@overload fun(file: string, uv: vec2, options: { raw: boolean }): vec4
+function texture(file, uv, width, options) end
+
 ---How much f changes over the footprint fw at p.
 ---@param f fun(p: any): number
 ---@param p number|vec2|vec3|vec4
@@ -169,6 +179,17 @@ std::string overload(const Form& form, const char* self) {
   return text + "): " + results_text(form);
 }
 
+/// Of a sum of noise, with the noise: "fun(f: (fun(p: vec3): number), p: vec3, octaves?: number, mean?: number):
+/// number"
+std::string sum_overload(const LibraryFunction& row) {
+  const std::vector<std::string> names = names_of(row);
+  const std::string point = type_text(row.parameters[0]);
+  std::string text = "fun(f: (fun(p: " + point + "): number), p: " + point;
+  for (unsigned i = 1; i < row.parameter_count; ++i)
+    text += ", " + names[i] + "?: number";
+  return text + ", mean?: number): number";
+}
+
 std::string default_text(const LibraryFunction& row, unsigned index) {
   if (index < row.required_count) return "";
   char text[40];
@@ -192,6 +213,9 @@ void write_function(std::string& out, std::span<const LibraryFunction> rows) {
   out += "---@return " + results_text(first) + "\n";
   for (size_t i = 1; i < forms.size(); ++i)
     out += "---@overload " + overload(forms[i], nullptr) + "\n";
+  if (find_noise_sum(first.row->name) != nullptr)
+    for (const LibraryFunction& row : rows)
+      out += "---@overload " + sum_overload(row) + "\n";
   out += "function " + std::string(first.row->name) + "(" + list + ") end\n\n";
 }
 

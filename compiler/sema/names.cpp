@@ -54,7 +54,6 @@ constexpr RefusedName kRefusedNames[] = {
     {"math.random", Code::RandomNumbers, ""},
     {"math.randomseed", Code::RandomNumbers, ""},
     {"ipairs", Code::LibraryLeftOut, "it stands in 'for i, v in ipairs(array)' alone"},
-    {"texture", Code::NotAvailableYet, "images ('texture') are"},
 };
 
 /// Functions that the manual promises; those that the table does not have yet are refused as such, not as unknown.
@@ -75,10 +74,10 @@ constexpr std::string_view kPlannedFunctions[] = {
     "math.type",   "math.ult",
 };
 
-constexpr std::array<std::string_view, 19> kBuiltIn = {
+constexpr std::array<std::string_view, 20> kBuiltIn = {
     "vec2",     "vec3",   "vec4",  "rgb",        "mat3",      "mat4",           "param",
     "require",  "assert", "error", "math.floor", "math.ceil", "math.tointeger", "math.type",
-    "gradient", "fwidth", "ramp",  "print",      "math.modf"};
+    "gradient", "fwidth", "ramp",  "print",      "math.modf", "texture"};
 
 constexpr LibraryConstant kConstants[] = {
     {"math.pi", false, std::numbers::pi, 0},

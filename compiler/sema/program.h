@@ -23,6 +23,7 @@
 #include <functional>
 #include <memory>
 #include <set>
+#include <span>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -170,6 +171,7 @@ enum class CallKind : uint8_t {
   Fwidth,         ///< fwidth(f, p, fw): the length of that, times the magnitude of fw
   TableFunction,  ///< ramp(x, t) and the like: `table_function`; `field` is t's element, `library` what goes between
                   ///< values: mix, catmullrom, bspline
+  Texture,        ///< texture(file, uv, width): image `index` of ShaderInfo::images; width 0 where there is none
   Ipairs,         ///< ipairs(t), of a `for` alone
   Require,        ///< require "name": the module has run
 };
@@ -217,6 +219,7 @@ struct ExpressionFact {
   int64_t integer_constant = 0; ///< NameKind::Constant of type integer
   CallKind call = CallKind::Specialisation;
   Specialisation* callee = nullptr;
+  std::vector<double> trailing;               ///< CallKind::Specialisation: passed behind the arguments
   const LibraryFunction* library = nullptr;   ///< CallKind::Library and ToInteger; operators given by a row "op.*"
   ValueType operand_type = ValueType::Number; ///< operators: type to which both operands are converted first
   OperatorForm form = OperatorForm::Plain;
@@ -234,7 +237,8 @@ struct LocalFact {
 struct Specialisation {
   uint32_t id = 0;
   const syntax::Function* function = nullptr;
-  std::string name; ///< for messages and the IR: "height", "falloff#2"
+  std::string name;        ///< for messages and the IR: "height", "falloff#2"
+  bool is_library = false; ///< of the library's own Lua: its calls are no steps
   /// Of the arguments as passed: a parameter to which the body gives a number too may be an integer here and a number
   /// in `locals` (converted on entry). String parameters have no storage and are not passed at run time. A call may
   /// have more arguments than these; the rest is evaluated and dropped.
@@ -288,7 +292,13 @@ struct Options {
   /// Finds and parses the module of a name, "patterns.stone", for `require`; asked once for each. Syntax errors go to
   /// the same diagnostics.
   std::function<LoadedModule(const std::string& name)> load_module = {};
+  /// Parses the library's own Lua (library_lua), for the functions of it that a shader calls; asked once, where there
+  /// are any.
+  std::function<const syntax::Chunk*()> load_library = {};
 };
+
+/// The arguments of a call of `texture` that are values: all but its options.
+std::span<syntax::Expr* const> texture_operands(const syntax::CallExpr& expr);
 
 /// Checks `chunk`. Reports every refusal; the program is meaningful only where no error was reported.
 Program check(const syntax::Chunk& chunk, const Options& options, Diagnostics& diagnostics);

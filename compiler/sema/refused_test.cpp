@@ -83,7 +83,7 @@ INSTANTIATE_TEST_SUITE_P(NotYet, RefusalTest,
                          Values(Refusal{"local m = require $'m'", {"module-not-found"}},
                                 Refusal{"local m = require $'../m'", {"module-name"}},
                                 Refusal{"local m = require($1)", {"module-name"}},
-                                Refusal{"function color(p) return $texture('a.png', p.xy) end", {"not-available-yet"}},
+                                Refusal{"function color(p) return texture($3, p.xy).rgb end", {"argument-type"}},
                                 Refusal{"function height(p) return math.max(1, $p) end", {"argument-type"}}));
 
 INSTANTIATE_TEST_SUITE_P(

@@ -43,11 +43,21 @@ inline constexpr int64_t kNoneCompared = -1;
 /// The index of a string parameter's value in `compared`.
 int64_t compared_index(const ParameterInfo& parameter, std::string_view value);
 
+/// An image that `texture` names.
+struct ImageInfo {
+  std::string file;                     ///< as written; of a parameter its default
+  std::optional<size_t> parameter = {}; ///< the string parameter that names it: index in ShaderInfo::parameters
+  bool raw = false;                     ///< numbers, not colours: 8-bit files are not decoded from sRGB
+  Span span{};                          ///< of the argument
+  std::string from = {};                ///< the source file in which it stands; relative names begin in its folder
+  uint32_t line = 0, column = 0;        ///< there
+};
+
 struct ShaderInfo {
   std::vector<EntryInfo> entries;
   std::vector<ParameterInfo> parameters;
   std::vector<std::string> modules; ///< files loaded by `require`
-  std::vector<std::string> images;  ///< files named by `texture`
+  std::vector<ImageInfo> images;    ///< that `texture` looks up
 
   const EntryInfo* find_entry(std::string_view name) const {
     for (const EntryInfo& entry : entries)

@@ -1,6 +1,7 @@
 // The walk over the body of one specialisation: gives every expression its type, joins the types of variables and
 // results, and in the reporting round refuses what the dialect leaves out and records the facts. Its methods stand in
-// expressions.cpp, operators.cpp, conditionals.cpp, calls.cpp, calculus.cpp, parameters.cpp and statements.cpp.
+// expressions.cpp, operators.cpp, conditionals.cpp, calls.cpp, calculus.cpp, sums.cpp, images.cpp, parameters.cpp and
+// statements.cpp.
 #pragma once
 
 #include "compiler/sema/context.h"
@@ -106,6 +107,15 @@ private:
   TypeList construct(const syntax::CallExpr& expr, std::string_view name);
   bool is_table_function(std::string_view name, const TypeList& types) const;
   TypeList table_function(const syntax::CallExpr& expr, std::string_view name, const TypeList& types);
+  // ---- sums.cpp
+  TypeList sum_call(const syntax::CallExpr& expr, std::string_view name, const TypeList& args);
+  bool takes_sum_arguments(const syntax::CallExpr& expr, std::string_view name, const TypeList& args, size_t most);
+  bool is_summable(const syntax::CallExpr& expr, std::string_view name, const Type& function, const Type& point);
+  // ---- images.cpp
+  TypeList texture_call(const syntax::CallExpr& expr);
+  bool takes_texture_arguments(const syntax::CallExpr& expr, const TypeList& args);
+  bool read_image_options(const syntax::TableExpr& options, bool& raw);
+  uint32_t add_image(const syntax::Expr& file, const Type& type, bool raw);
   TypeList construct_matrix(const syntax::CallExpr& expr, std::string_view name);
   Type matrix_column(const syntax::IndexExpr& expr, const Type& object);
   Type matrix_arithmetic(const syntax::BinaryExpr& expr, const Type& left, const Type& right);
@@ -201,6 +211,9 @@ private:
 
 /// gradient and fwidth: their first argument is a function.
 bool is_derivative(std::string_view name);
+
+/// fbm, turbulence, ...: with a function first, they sum that.
+bool is_sum(std::string_view name, const TypeList& args);
 
 /// The expression inside any parentheses.
 const syntax::Expr& strip_parentheses(const syntax::Expr& expr);

@@ -230,6 +230,34 @@ TEST(Resuming, GivesTheBitsOfAnUninterruptedRender) {
   }
 }
 
+TEST(Resuming, KeepsTheControlsThatVolumesHaveRaised) {
+  // Specks so rare that looking at the cells misses most of them.
+  auto shader = std::make_shared<CppShader>();
+  shader->add("density", {{"p", ValueType::Vec3}}, ValueType::Number, [](const double* in, double* out) {
+    double h = std::sin(in[0] * 127.1 + in[1] * 311.7 + in[2] * 74.7) * 43758.5453;
+    return out[0] = h - std::floor(h) < 3e-4 ? 60 : 2, FaultCode::None;
+  });
+  for (const char* integrator : {"path", "sppm", "irradiance"}) {
+    const std::string scene = std::string("camera{ from = {0, 0.6, 4} } light{ type = 'sky' } plane{ point = {0, -1, "
+                                          "0} } box{ material = material{ color = 0.9, shader = 'fake.lua' } } render{ "
+                                          "width = 24, height = 16, samples = 48, photons = 2000, integrator = '") +
+                              integrator + "' }";
+    Rendering whole = render_text(scene, shader);
+    ASSERT_EQ(whole.error, "");
+    Memory memory;
+    RenderOptions options;
+    options.after_pass = [&](RenderState& state, bool) {
+      if (state.samples() == 32) state.exchange(memory);
+    };
+    render_text(scene, shader, options);
+    memory.rewind();
+    options.after_pass = nullptr;
+    options.resume = &memory;
+    EXPECT_EQ(render_text(scene, shader, options).result.picture.pixels, whole.result.picture.pixels) << integrator;
+    EXPECT_TRUE(memory.ok());
+  }
+}
+
 TEST(Resuming, GivesUpWhereTheStateDoesNotFit) {
   Memory empty;
   empty.rewind();

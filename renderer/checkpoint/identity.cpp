@@ -22,11 +22,6 @@ ShaderLoad RecordingShaders::load(const std::string& file, const std::map<std::s
   files_.insert(file);
   if (!load.shader) return load;
   files_.insert(load.files.begin(), load.files.end());
-  for (const std::string& name : load.shader->info().images) {
-    std::error_code error;
-    fs::path beside = fs::path(folder_of(file)) / name;
-    files_.insert(fs::exists(beside, error) ? beside.string() : name);
-  }
   return load;
 }
 

@@ -18,8 +18,8 @@ static constexpr uint32_t kMostRounds = 3;
 static constexpr uint32_t kDimension = 0;
 
 struct IrradianceCache::Worker {
-  explicit Worker(const PreparedScene& scene)
-      : rays(kRecordsATask * kRays), hits(rays.size()), shadows(scene, rays.size()) {}
+  Worker(const PreparedScene& scene, VolumeControls& controls)
+      : rays(kRecordsATask * kRays), hits(rays.size()), shadows(scene, controls, rays.size()) {}
   std::vector<Ray> rays;
   std::vector<Hit> hits;
   ShadowTracer shadows;
@@ -31,10 +31,12 @@ IrradianceCache::IrradianceCache(const PreparedScene& scene, tbb::task_arena& ar
                                  FaultLog& faults)
     : scene_(scene), colors_(average_colors(scene.scene, *scene.geometry, scene.materials)) {
   std::vector<Place> places = place_records();
+  // As measured, whatever passes have raised: a resumed render gathers the same.
+  VolumeControls controls(*scene.volumes);
   std::vector<std::unique_ptr<Worker>> workers(size_t(arena.max_concurrency()));
   uint32_t rounds = std::min(kMostRounds, std::max(1u, scene.scene.settings.depth) - 1);
   for (uint32_t round = 0; round < rounds; ++round)
-    run_round(places, round, arena, workers);
+    run_round(places, round, arena, controls, workers);
   for (const auto& worker : workers) {
     if (!worker) continue;
     stats += worker->stats;
@@ -67,7 +69,7 @@ std::vector<IrradianceCache::Place> IrradianceCache::place_records() const {
 }
 
 void IrradianceCache::run_round(const std::vector<Place>& places, uint32_t round, tbb::task_arena& arena,
-                                std::vector<std::unique_ptr<Worker>>& workers) {
+                                VolumeControls& controls, std::vector<std::unique_ptr<Worker>>& workers) {
   std::vector<Vec3> irradiance(places.size(), Vec3(0));
   uint32_t count = uint32_t(places.size()), tasks = (count + kRecordsATask - 1) / kRecordsATask;
   arena.execute([&] {
@@ -76,7 +78,7 @@ void IrradianceCache::run_round(const std::vector<Place>& places, uint32_t round
         [&](const tbb::blocked_range<uint32_t>& range) {
           DefaultFloatEnvironment environment;
           auto& worker = workers[size_t(tbb::this_task_arena::current_thread_index())];
-          if (!worker) worker = std::make_unique<Worker>(scene_);
+          if (!worker) worker = std::make_unique<Worker>(scene_, controls);
           for (uint32_t task = range.begin(); task < range.end(); ++task) {
             uint32_t first = task * kRecordsATask, n = std::min(kRecordsATask, count - first);
             gather(std::span(places).subspan(first, n), first, round, *worker, irradiance.data() + first);

@@ -27,7 +27,7 @@ private:
   struct Worker;
   std::vector<Place> place_records() const;
   void gather(std::span<const Place> places, uint32_t first, uint32_t round, Worker& worker, Vec3* irradiance) const;
-  void run_round(const std::vector<Place>& places, uint32_t round, tbb::task_arena& arena,
+  void run_round(const std::vector<Place>& places, uint32_t round, tbb::task_arena& arena, VolumeControls& controls,
                  std::vector<std::unique_ptr<Worker>>& workers);
 
   const PreparedScene& scene_;

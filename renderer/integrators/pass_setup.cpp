@@ -22,8 +22,8 @@ float radius_scale(uint32_t pass) {
 
 } // namespace
 
-PassSetup::PassSetup(const PreparedScene& scene, tbb::task_arena& arena)
-    : scene_(scene), arena_(arena), focus_(focus_of(scene)),
+PassSetup::PassSetup(const PreparedScene& scene, VolumeControls& controls, tbb::task_arena& arena)
+    : scene_(scene), controls_(controls), arena_(arena), focus_(focus_of(scene)),
       source_(*scene.geometry, *scene.lights, focus_.center, focus_.radius), workers_(size_t(arena.max_concurrency())) {
 }
 
@@ -40,7 +40,7 @@ void PassSetup::prepare(uint32_t pass) {
         [&](const tbb::blocked_range<uint32_t>& range) {
           DefaultFloatEnvironment environment;
           auto& worker = workers_[size_t(tbb::this_task_arena::current_thread_index())];
-          if (!worker) worker = std::make_unique<PhotonTracer>(scene_, source_, kBatchPhotons);
+          if (!worker) worker = std::make_unique<PhotonTracer>(scene_, source_, controls_, kBatchPhotons);
           for (uint32_t task = range.begin(); task < range.end(); ++task) {
             uint32_t first = task * kBatchPhotons;
             worker->trace(pass, first, std::min(kBatchPhotons, count - first), parts[task]);

@@ -15,8 +15,8 @@ public:
     return integrator == IntegratorKind::Sppm || integrator == IntegratorKind::Irradiance;
   }
 
-  /// Both outlive this.
-  PassSetup(const PreparedScene& scene, tbb::task_arena& arena);
+  /// All outlive this.
+  PassSetup(const PreparedScene& scene, VolumeControls& controls, tbb::task_arena& arena);
 
   void prepare(uint32_t pass);
   const PhotonMap& photons() const { return photons_; }
@@ -26,6 +26,7 @@ public:
 
 private:
   const PreparedScene& scene_;
+  VolumeControls& controls_;
   tbb::task_arena& arena_;
   Focus focus_;
   PhotonSource source_;

@@ -32,12 +32,13 @@ Focus focus_of(const PreparedScene& scene) {
   return {box.center(), std::max(0.5f * glm::length(box.high - box.low) * 1.1f, 1e-3f * all.radius())};
 }
 
-PhotonTracer::PhotonTracer(const PreparedScene& scene, const PhotonSource& source, size_t capacity)
+PhotonTracer::PhotonTracer(const PreparedScene& scene, const PhotonSource& source, VolumeControls& controls,
+                           size_t capacity)
     : scene_(scene), settings_(scene.scene.settings), source_(source),
       shader_(scene.scene, *scene.geometry, scene.materials, capacity), miss_shader_(scene, capacity), paths_(capacity),
       emitted_(capacity), rays_(capacity), hits_(capacity) {
   active_.reserve(capacity);
-  if (scene.volumes->any()) tracker_ = std::make_unique<VolumeTracker>(scene, capacity);
+  if (scene.volumes->any()) tracker_ = std::make_unique<VolumeTracker>(scene, controls, capacity);
 }
 
 void PhotonTracer::trace(uint32_t pass, uint32_t first, uint32_t count, std::vector<Photon>& photons) {
@@ -121,7 +122,37 @@ void PhotonTracer::ask_emitters() {
       paths_[shader_.owner(k)].power *= shader_.faulted(k) ? Vec3(0) : values.emission * values.opacity;
     }
   });
+  if (tracker_) ask_volumes();
   std::erase_if(active_, [&](uint32_t k) { return is_black(paths_[k].power); });
+}
+
+/// Photons that begin where something may glow, volume by volume.
+void PhotonTracer::ask_volumes() {
+  glowing_.clear();
+  for (uint32_t k : active_) {
+    if (emitted_[k].emitter != Emitter::Volume) continue;
+    // The grid from which they were drawn is greater than the volume.
+    if (paths_[k].media.active() == emitted_[k].object)
+      glowing_.push_back(k);
+    else
+      paths_[k].power = Vec3(0);
+  }
+  std::sort(glowing_.begin(), glowing_.end(), [&](uint32_t a, uint32_t b) {
+    return std::pair(emitted_[a].object, a) < std::pair(emitted_[b].object, b);
+  });
+  points_.clear();
+  for (uint32_t k : glowing_)
+    points_.push_back(emitted_[k].ray.origin);
+  emission_.resize(points_.size());
+  for (size_t begin = 0, end; begin < glowing_.size(); begin = end) {
+    uint32_t object = emitted_[glowing_[begin]].object;
+    for (end = begin; end < glowing_.size() && emitted_[glowing_[end]].object == object;)
+      ++end;
+    tracker_->emission(object, std::span(points_).subspan(begin, end - begin), emission_.data() + begin, faults_,
+                       stats_);
+  }
+  for (size_t k = 0; k < glowing_.size(); ++k)
+    paths_[glowing_[k]].power *= emission_[k];
 }
 
 void PhotonTracer::meet(uint32_t index, const Hit& hit) {

@@ -26,7 +26,7 @@ inline uint8_t gathered_lobes(const Bsdf& bsdf) {
 
 class PhotonTracer {
 public:
-  PhotonTracer(const PreparedScene& scene, const PhotonSource& source, size_t capacity);
+  PhotonTracer(const PreparedScene& scene, const PhotonSource& source, VolumeControls& controls, size_t capacity);
 
   /// Adds what photons [first, first + count) leave behind after at least one bounce (direct light is sampled
   /// otherwise). `count` is at most the capacity.
@@ -54,6 +54,7 @@ private:
   }
   void start(uint32_t pass, uint32_t first, uint32_t count);
   void ask_emitters();
+  void ask_volumes();
   void meet(uint32_t index, const Hit& hit);
   void track_volumes();
   void bounce(const CompiledMaterial& material, size_t k);
@@ -71,6 +72,8 @@ private:
   std::vector<Kept> kept_;
   std::unique_ptr<VolumeTracker> tracker_; ///< only where there are volumes
   std::vector<Flight> flights_;
+  std::vector<uint32_t> glowing_;
+  std::vector<Vec3> points_, emission_;
   WorkerStats stats_;
   FaultLog faults_;
 };

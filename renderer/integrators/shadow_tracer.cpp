@@ -4,25 +4,29 @@ namespace moonshade::renderer {
 
 static constexpr int kMostSurfaces = 256; // in a row that let light through
 
-ShadowTracer::ShadowTracer(const PreparedScene& scene, size_t capacity)
+ShadowTracer::ShadowTracer(const PreparedScene& scene, VolumeControls& controls, size_t capacity)
     : scene_(scene), capacity_(capacity), rays_(capacity), blocked_(capacity), miss_shader_(scene, capacity) {
   shadows_.reserve(capacity);
   if (!scene.materials.any_passable() && !scene.lights->asks_surfaces()) return;
   shader_ = std::make_unique<HitShader>(scene.scene, *scene.geometry, scene.materials, capacity);
   hits_.resize(capacity);
-  if (scene.volumes->any()) tracker_ = std::make_unique<VolumeTracker>(scene, capacity);
+  if (scene.volumes->any()) tracker_ = std::make_unique<VolumeTracker>(scene, controls, capacity);
 }
 
 void ShadowTracer::arrive(FaultLog& faults, WorkerStats& stats) {
   double start = thread_seconds();
-  for (size_t k = 0; k < shadows_.size(); ++k)
+  for (size_t k = 0; k < shadows_.size(); ++k) {
     rays_[k] = shadows_[k].ray;
+    if (shadows_[k].emitter == Emitter::Volume) rays_[k].far = 0; // what is before the first surface counts
+  }
   scene_.geometry->occluded({rays_.data(), shadows_.size()}, blocked_.data());
   stats.rays += shadows_.size();
   for (size_t k = 0; k < shadows_.size(); ++k)
     if (blocked_[k]) shadows_[k].contribution = Vec3(0);
   stats.trace_seconds += thread_seconds() - start;
   if (scene_.materials.any_passable()) pass_through(faults, stats);
+  for (Shadow& shadow : shadows_)
+    if (shadow.emitter == Emitter::Volume) shadow.contribution = shadow.glow;
   if (asks_) ask_emitters(faults, stats);
 }
 
@@ -58,6 +62,11 @@ void ShadowTracer::pass_through(FaultLog& faults, WorkerStats& stats) {
         active_[left++] = active_[k];
         continue;
       }
+      const PlacedObject& placed = scene_.geometry->objects()[hits_[k].object];
+      if (!placed.passable[placed.material_of(hits_[k].primitive)]) {
+        shadow.contribution = Vec3(0);
+        continue;
+      }
       shader_->add(active_[k], shadow.ray, hits_[k], shadow.width, shadow.spread);
       active_[left++] = active_[k];
     }
@@ -82,7 +91,7 @@ void ShadowTracer::pass_through(FaultLog& faults, WorkerStats& stats) {
 
 /// From where the active shadows are to what they meet next.
 void ShadowTracer::track_volumes(int surface, FaultLog& faults, WorkerStats& stats) {
-  flights_.clear();
+  flights_.clear(), glowing_.clear();
   for (size_t k = 0; k < active_.size(); ++k) {
     const Shadow& shadow = shadows_[active_[k]];
     Flight flight;
@@ -94,18 +103,28 @@ void ShadowTracer::track_volumes(int surface, FaultLog& faults, WorkerStats& sta
     if (flight.ray.far == kInfinity) continue; // an open mesh has no inside
     flight.width = shadow.width, flight.spread = shadow.spread;
     flight.sampler = shadow.sampler.fork(uint32_t(surface));
-    flights_.push_back(flight);
+    bool glows = shadow.emitter == Emitter::Volume && shadow.light.object == flight.object;
+    (glows ? glowing_ : flights_).push_back(flight);
   }
-  tracker_->run(flights_, VolumeTracker::Mode::Transmittance, faults, stats);
-  for (const Flight& flight : flights_)
-    shadows_[flight.owner].contribution *= flight.faulted ? 0.0f : flight.weight;
+  fly(flights_, VolumeTracker::Mode::Transmittance, faults, stats);
+  fly(glowing_, VolumeTracker::Mode::Glow, faults, stats);
+}
+
+void ShadowTracer::fly(std::vector<Flight>& flights, VolumeTracker::Mode mode, FaultLog& faults, WorkerStats& stats) {
+  tracker_->run(flights, mode, faults, stats);
+  for (const Flight& flight : flights) {
+    Shadow& shadow = shadows_[flight.owner];
+    shadow.glow += shadow.contribution * flight.glow;
+    shadow.contribution *= flight.faulted ? 0.0f : flight.weight;
+  }
 }
 
 void ShadowTracer::ask_emitters(FaultLog& faults, WorkerStats& stats) {
   if (shader_) shader_->clear();
   for (uint32_t k = 0; k < shadows_.size(); ++k) {
     const Shadow& shadow = shadows_[k];
-    if (shadow.emitter == Emitter::Known || is_black(shadow.contribution)) continue;
+    if (shadow.emitter == Emitter::Known || shadow.emitter == Emitter::Volume || is_black(shadow.contribution))
+      continue;
     if (shadow.emitter == Emitter::Surface)
       shader_->add(k, shadow.ray, shadow.light, shadow.width, shadow.spread);
     else

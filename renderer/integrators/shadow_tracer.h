@@ -15,14 +15,15 @@ struct Shadow {
   Vec3 contribution{0}; ///< where nothing is in between
   float width = 0, spread = 0;
   Emitter emitter = Emitter::Known;
-  Hit light{}; ///< Emitter::Surface: where the ray ends
+  Hit light{}; ///< Emitter::Surface: where the ray ends; Emitter::Volume: the object
   Media media{};
   Sampler sampler{}; ///< for its way through volumes
+  Vec3 glow{0};      ///< Emitter::Volume: what of it arrives, gathered on the way
 };
 
 class ShadowTracer {
 public:
-  ShadowTracer(const PreparedScene& scene, size_t capacity);
+  ShadowTracer(const PreparedScene& scene, VolumeControls& controls, size_t capacity);
 
   bool full() const { return shadows_.size() == capacity_; }
   bool empty() const { return shadows_.empty(); }
@@ -43,6 +44,7 @@ private:
   void arrive(FaultLog& faults, WorkerStats& stats);
   void pass_through(FaultLog& faults, WorkerStats& stats);
   void track_volumes(int surface, FaultLog& faults, WorkerStats& stats);
+  void fly(std::vector<Flight>& flights, VolumeTracker::Mode mode, FaultLog& faults, WorkerStats& stats);
   void ask_emitters(FaultLog& faults, WorkerStats& stats);
 
   const PreparedScene& scene_;
@@ -57,7 +59,7 @@ private:
   std::vector<Hit> hits_;
   std::vector<uint32_t> active_;
   std::unique_ptr<VolumeTracker> tracker_; ///< only where there are volumes
-  std::vector<Flight> flights_;
+  std::vector<Flight> flights_, glowing_;
 };
 
 } // namespace moonshade::renderer

@@ -161,5 +161,56 @@ TEST(Sppm, ThreadsAndPassesChangeNothing) {
       EXPECT_EQ(part.at(x, y), one.at(x + 10, y + 5)) << x << " " << y;
 }
 
+TEST(Sppm, StopsAtTheNoiseAskedForAndIsNotFooledBySharedPhotons) {
+  // Neighbours see the same photons, but a pixel's passes have photons of their own: the error that its samples show is
+  // that of its mean. Two seeds' difference says what it really is, in a picture encoded by a square root.
+  constexpr double kLevel = 0.006;
+  auto render_seed = [](int seed, unsigned threads) {
+    return testing::render_text("render{ width = 64, height = 48, depth = 5, photons = 4000, samples = 1500, "
+                                "integrator = 'sppm', seed = " +
+                                    std::to_string(seed) + " } " + kRoom +
+                                    "light{ type = 'point', position = {0.5, 2, 1}, color = 5 }",
+                                nullptr, {.threads = threads, .noise = kLevel});
+  };
+  testing::Rendering a = render_seed(1, 2), b = render_seed(2, 3);
+  ASSERT_EQ(a.error + b.error, "");
+  EXPECT_TRUE(a.result.finished);
+  EXPECT_LT(a.result.samples, 1500u);
+  double squares = 0;
+  for (size_t k = 0; k < a.result.picture.pixels.size(); ++k) {
+    double apart = std::sqrt(double(luminance(a.result.picture.pixels[k]))) -
+                   std::sqrt(double(luminance(b.result.picture.pixels[k])));
+    squares += apart * apart / 2;
+  }
+  double error = std::sqrt(squares / double(a.result.picture.pixels.size()));
+  EXPECT_LT(error, kLevel);
+  EXPECT_GT(error, 0.3 * kLevel); // nor does it go on for long where it could stop
+  EXPECT_EQ(render_seed(1, 1).result.picture.pixels, a.result.picture.pixels);
+}
+
+TEST(Sppm, ExtrapolatedToNoRadiusIsWhatPathsSee) {
+  // The blur of a photon map goes with the square of its radius: two numbers of passes give the mean at radius 0.
+  auto mean = [](const std::string& settings) {
+    Picture picture = picture_of("render{ width = 32, height = 24, depth = 6, photons = 20000, " + settings + " } " +
+                                 kRoom + "light{ type = 'point', position = {0.5, 2, 1}, color = 5 }");
+    double sum = 0;
+    for (const Vec3& p : picture.pixels)
+      sum += double(luminance(p));
+    return sum / double(picture.pixels.size());
+  };
+  auto mean_square_radius = [](int passes) {
+    double sum = 0, squared = 1;
+    for (int k = 0; k < passes; ++k, squared *= (k + 2.0 / 3) / (k + 1))
+      sum += squared;
+    return sum / passes;
+  };
+  double few = mean("integrator = 'sppm', samples = 8"), many = mean("integrator = 'sppm', samples = 96, seed = 1");
+  double b_few = mean_square_radius(8), b_many = mean_square_radius(96);
+  double extrapolated = many + (many - few) * b_many / (b_few - b_many), path = mean("samples = 1024");
+  EXPECT_LT(few, path); // photons are lost along edges
+  EXPECT_NEAR(many / path, 1, 0.008);
+  EXPECT_NEAR(extrapolated / path, 1, 0.005);
+}
+
 } // namespace
 } // namespace moonshade::renderer

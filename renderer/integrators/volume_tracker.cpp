@@ -6,9 +6,9 @@ namespace moonshade::renderer {
 
 static constexpr uint32_t kMostCollisions = 1u << 17; // of one way
 
-VolumeTracker::VolumeTracker(const PreparedScene& scene, size_t capacity)
-    : scene_(scene), capacity_(capacity), batch_(capacity, scene.scene.settings.time, scene.scene.settings.frame),
-      control_(capacity), failed_(capacity) {
+VolumeTracker::VolumeTracker(const PreparedScene& scene, VolumeControls& controls, size_t capacity)
+    : scene_(scene), controls_(controls), capacity_(capacity),
+      batch_(capacity, scene.scene.settings.time, scene.scene.settings.frame), control_(capacity), failed_(capacity) {
   active_.reserve(capacity_);
   real_.reserve(capacity_);
 }
@@ -47,7 +47,7 @@ bool VolumeTracker::advance(Flight& f, float& control) const {
   for (;;) {
     int axis = f.next[0] <= f.next[1] && f.next[0] <= f.next[2] ? 0 : f.next[1] <= f.next[2] ? 1 : 2;
     float end = std::min(f.next[axis], f.ray.far);
-    control = volume.control(f.cell);
+    control = controls_.at(f.object, volume.index(f.cell));
     float thickness = control * f.scale * std::max(end - f.at, 0.0f);
     if (depth < thickness) {
       f.at += depth / (control * f.scale);
@@ -113,6 +113,7 @@ void VolumeTracker::call(const EntryCall& entry, size_t count, unsigned componen
 void VolumeTracker::look(std::vector<Flight>& flights, size_t begin, size_t end, Mode mode, FaultLog& faults) {
   const CompiledMaterial& material = material_of(flights[active_[begin]].object);
   const VolumeCalls& volume = *material.volume;
+  const Volume& grid = *scene_.volumes->of(flights[active_[begin]].object);
   size_t count = end - begin;
   auto fill = [&](size_t k, const Flight& f) {
     fill_volume_inputs(batch_, k, f.local + f.step * f.at, f.ray.origin + f.ray.direction * f.at, f.ray.direction,
@@ -125,7 +126,7 @@ void VolumeTracker::look(std::vector<Flight>& flights, size_t begin, size_t end,
     call(*volume.density, count, 1, 0, faults);
   else
     std::fill_n(batch_.results[0].data(), count, volume.density_constant);
-  bool glows = mode == Mode::Distance && volume.glows();
+  bool glows = mode != Mode::Transmittance && volume.glows();
   if (glows && volume.emission) call(*volume.emission, count, 3, 1, faults);
   real_.clear();
   for (size_t k = 0; k < count; ++k) {
@@ -135,17 +136,15 @@ void VolumeTracker::look(std::vector<Flight>& flights, size_t begin, size_t end,
       continue;
     }
     float density = std::max(batch_.results[0][k], 0.0f), control = control_[begin + k];
-    if (mode == Mode::Transmittance) {
+    if (density > control) controls_.note(f.object, grid.index(f.cell), density);
+    if (glows) {
+      f.glow += emitted_at(volume, k) * (f.weight / control);
+    }
+    if (mode != Mode::Distance) {
       f.weight *= 1 - density / control;
       // Roulette: what hardly arrives is not followed for ever.
       if (std::abs(f.weight) < 0.05f) f.weight = f.sampler.one(2 * f.drawn - 1) < 0.5f ? 2 * f.weight : 0;
       continue;
-    }
-    if (glows) {
-      Vec3 emission = volume.emission
-                          ? glm::max(Vec3(batch_.results[1][k], batch_.results[2][k], batch_.results[3][k]), Vec3(0))
-                          : volume.emission_constant;
-      f.glow += emission * (f.weight / control);
     }
     float other = std::abs(control - density), all = density + other;
     if (f.sampler.one(2 * f.drawn - 1) * all < density) {
@@ -160,6 +159,25 @@ void VolumeTracker::look(std::vector<Flight>& flights, size_t begin, size_t end,
   for (size_t k = 0; k < real_.size(); ++k)
     fill(k, flights[real_[k]]);
   if (!real_.empty()) collide(flights, material, faults);
+}
+
+Vec3 VolumeTracker::emitted_at(const VolumeCalls& volume, size_t k) const {
+  if (!volume.emission) return volume.emission_constant;
+  return glm::max(Vec3(batch_.results[1][k], batch_.results[2][k], batch_.results[3][k]), Vec3(0));
+}
+
+void VolumeTracker::emission(uint32_t object, std::span<const Vec3> points, Vec3* emitted, FaultLog& faults,
+                             WorkerStats& stats) {
+  const VolumeCalls& volume = *material_of(object).volume;
+  const PlacedObject& placed = scene_.geometry->objects()[object];
+  for (size_t k = 0; k < points.size(); ++k)
+    fill_volume_inputs(batch_, k, Vec3(placed.to_object * glm::dvec4(DVec3(points[k]), 1.0)), points[k], Vec3(0, 0, 1),
+                       0, object);
+  std::fill_n(failed_.begin(), points.size(), uint8_t(0));
+  if (volume.emission) call(*volume.emission, points.size(), 3, 1, faults);
+  for (size_t k = 0; k < points.size(); ++k)
+    emitted[k] = failed_[k] ? Vec3(0) : emitted_at(volume, k);
+  stats.shading_points += points.size();
 }
 
 void VolumeTracker::collide(std::vector<Flight>& flights, const CompiledMaterial& material, FaultLog& faults) {

@@ -5,11 +5,13 @@
 //                  mu being the density and c the control, and carries the weight that makes up for it; none where mu
 //                  <= c
 //   transmittance  ratio tracking: each tentative collision leaves (c - mu) / c
+//   glow           the same, and what is emitted on the way
 #pragma once
 
 #include "renderer/integrators/task.h"
 #include "renderer/prepared_scene.h"
 #include "renderer/sampling/sampler.h"
+#include "renderer/volumes/volume_controls.h"
 
 namespace moonshade::renderer {
 
@@ -39,10 +41,14 @@ struct Flight {
 
 class VolumeTracker {
 public:
-  VolumeTracker(const PreparedScene& scene, size_t capacity);
+  /// Both outlive this.
+  VolumeTracker(const PreparedScene& scene, VolumeControls& controls, size_t capacity);
 
-  enum class Mode : uint8_t { Distance, Transmittance };
+  enum class Mode : uint8_t { Distance, Transmittance, Glow };
   void run(std::vector<Flight>& flights, Mode mode, FaultLog& faults, WorkerStats& stats);
+
+  /// What a volume emits at its points; nothing where its shader faults. At most as many as the capacity.
+  void emission(uint32_t object, std::span<const Vec3> points, Vec3* emitted, FaultLog& faults, WorkerStats& stats);
 
 private:
   void begin(Flight& flight) const;
@@ -51,8 +57,10 @@ private:
   void collide(std::vector<Flight>& flights, const CompiledMaterial& material, FaultLog& faults);
   void call(const EntryCall& entry, size_t count, unsigned components, size_t result, FaultLog& faults);
   const CompiledMaterial& material_of(uint32_t object) const;
+  Vec3 emitted_at(const VolumeCalls& volume, size_t k) const;
 
   const PreparedScene& scene_;
+  VolumeControls& controls_;
   size_t capacity_;
   ShadingBatch batch_;
   std::vector<uint32_t> active_, real_;

@@ -12,16 +12,16 @@ static const Vec3 kFaultColor(1, 0, 1);
 static constexpr size_t kLeastTogether = 6;     // rays in a packet that go different ways; fewer are as fast alone
 static constexpr uint32_t kMostSegments = 4096; // of a path, sheets without end included
 
-Wavefront::Wavefront(const PreparedScene& scene, size_t capacity)
+Wavefront::Wavefront(const PreparedScene& scene, VolumeControls& controls, size_t capacity)
     : scene_(scene), settings_(scene.scene.settings), kernels_(kernels()),
       camera_(scene.scene.camera, settings_.width, settings_.height),
       shader_(scene.scene, *scene.geometry, scene.materials, capacity), miss_shader_(scene, capacity),
-      shadows_(scene, capacity), paths_(capacity), packets_(capacity), rays_(capacity), hits_(capacity) {
+      shadows_(scene, controls, capacity), paths_(capacity), packets_(capacity), rays_(capacity), hits_(capacity) {
   active_.reserve(capacity);
   camera_path_.width = camera_.width();
   camera_path_.spread = camera_.spread();
   if (!scene.volumes->any()) return;
-  tracker_ = std::make_unique<VolumeTracker>(scene, capacity);
+  tracker_ = std::make_unique<VolumeTracker>(scene, controls, capacity);
   camera_path_.media = media_at(*scene.geometry, *scene.volumes, scene.scene.camera.from);
 }
 
@@ -129,7 +129,10 @@ void Wavefront::track_volumes() {
   tracker_->run(flights_, VolumeTracker::Mode::Distance, faults_, stats_);
   for (const Flight& flight : flights_) {
     Path& path = paths_[flight.owner];
-    path.radiance += path.throughput * flight.glow;
+    if (!is_black(flight.glow)) {
+      float pdf = path.mirror ? 0 : scene_.lights->volume_pdf(flight.object, path.from, path.ray.direction);
+      path.radiance += path.throughput * flight.glow * (path.mirror ? 1 : power_heuristic(path.pdf, pdf));
+    }
     path.throughput *= flight.weight;
     if (flight.faulted || flight.weight == 0) {
       path.alive = false;

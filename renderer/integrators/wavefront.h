@@ -23,8 +23,8 @@ namespace moonshade::renderer {
 
 class Wavefront {
 public:
-  /// `scene` outlives this; `capacity` is the most paths a task may have.
-  Wavefront(const PreparedScene& scene, size_t capacity);
+  /// `scene` and `controls` outlive this; `capacity` is the most paths a task may have.
+  Wavefront(const PreparedScene& scene, VolumeControls& controls, size_t capacity);
 
   /// Traces the paths of a task, to their ends.
   void run(const Task& task, const SampleOutputs& out);

@@ -26,7 +26,7 @@ void Wavefront::scatter_whitted(const CompiledMaterial& material, size_t begin, 
     for (size_t light = 0; light < lights.count(); ++light) {
       if (lights.is_sky(light)) continue;
       uint32_t at = 1 + path.segments * 4096 + uint32_t(light); // as many draws as there are lights
-      LightSample sample = lights.sample_light(light, s.world, path.sampler.two(at));
+      LightSample sample = lights.sample_light(light, s.world, path.sampler.two(at), path.sampler.fork(at).one(0));
       if (!(sample.pdf > 0) || is_black(sample.radiance)) continue;
       Vec3 f_cos = bsdf.evaluate(sample.direction, kAllLobes & ~onwards).f_cos;
       if (!is_black(f_cos)) add_shadow(index, k, sample, path.throughput * f_cos * sample.radiance * (1 / sample.pdf));

@@ -49,7 +49,7 @@ struct alignas(64) ScatterBlock {
   LaneInts segments, bounces, key, sample;
   // Drawn.
   LaneInts light;
-  LaneFloats light_u, light_v, direction_u, direction_v, survival;
+  LaneFloats light_u, light_v, light_w, direction_u, direction_v, survival;
   // Where a light is: a triangle's corners (`area` not 0), or a direction of the surroundings that are formulas
   // (`sky` not 0); or else found already.
   LaneInts area, sky, one_sided, delta;

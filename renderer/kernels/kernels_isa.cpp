@@ -249,7 +249,8 @@ void draw_vertices(ScatterBlock& b, uint32_t light_count) {
     F place = draws.one(first + U(uint32_t(kLightChoice))) * F(float(light_count));
     U light = bit_cast<U>(convert<I>(place));
     U last = U(light_count - 1);
-    store(select(stdlib::to_mask<F>(light < last), light, last), b.light);
+    light = select(stdlib::to_mask<F>(light < last), light, last);
+    store(light, b.light), store(place - convert<F>(bit_cast<I>(light)), b.light_w);
     draws.two(first + U(uint32_t(kLightPoint)), u, v);
     store(u, b.light_u), store(v, b.light_v);
   }

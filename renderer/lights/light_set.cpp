@@ -1,5 +1,5 @@
 // Densities: uniform over area for meshes (weighted by luminance), over the visible cone for spheres and the sun, by
-// bands of equal solid angle for the sky, by a table for surroundings.
+// bands of equal solid angle for the sky, by a table for surroundings, by mean emission along a line for volumes.
 #include "renderer/lights/light_set.h"
 
 #include "renderer/kernels/kernels.h"
@@ -30,8 +30,8 @@ static bool accumulate(std::vector<float>& weights) {
   return true;
 }
 
-LightSet::LightSet(const Scene& scene, const Geometry& geometry, std::vector<ObjectEmission> emission,
-                   std::vector<Environment> environments)
+LightSet::LightSet(const Scene& scene, const Geometry& geometry, const VolumeSet& volumes,
+                   std::vector<ObjectEmission> emission, std::vector<Environment> environments)
     : geometry_(geometry), scene_(scene), environments_(std::move(environments)),
       light_of_object_(scene.objects.size(), -1) {
   for (const Light& light : scene.lights) {
@@ -52,6 +52,14 @@ LightSet::LightSet(const Scene& scene, const Geometry& geometry, std::vector<Obj
     }
   }
   for (uint32_t id = 0; id < scene.objects.size(); ++id) {
+    if (const Volume* volume = volumes.of(id); volume && volume->glow) {
+      Entry entry;
+      entry.kind = Kind::Volume;
+      entry.object = id;
+      entry.glow = volume->glow.get();
+      light_of_object_[id] = int32_t(lights_.size());
+      lights_.push_back(std::move(entry));
+    }
     if (emission[id].mean.empty()) continue;
     const PlacedObject& placed = geometry.objects()[id];
     if (placed.object->shape == Shape::Mesh)
@@ -325,9 +333,28 @@ float LightSet::spot_share(const Entry& entry, const Vec3& to_light) {
   return t * t * (3 - 2 * t);
 }
 
-LightSample LightSet::sample_light(size_t light, const Vec3& point, const Vec2& u) const {
+LightSample LightSet::sample_volume(const Entry& entry, const Vec3& point, const Vec2& u, float w) const {
+  Vec3 to = entry.glow->sample(u, w).world - point;
+  LightSample sample;
+  sample.direction = normalize_or(to, Vec3(0));
+  if (is_black(sample.direction)) return sample;
+  GlowGrid::Line line = entry.glow->line(point, sample.direction);
+  sample.pdf = line.pdf;
+  sample.distance = line.far * (1 + 1e-3f); // the grid's box holds the volume but for rounding
+  sample.radiance = Vec3(1);
+  sample.emitter = Emitter::Volume;
+  sample.object = entry.object;
+  return sample;
+}
+
+float LightSet::volume_pdf(uint32_t object, const Vec3& from, const Vec3& direction) const {
+  int32_t light = light_of_object_[object];
+  return light < 0 ? 0 : lights_[size_t(light)].glow->line(from, direction).pdf / float(lights_.size());
+}
+
+LightSample LightSet::sample_light(size_t light, const Vec3& point, const Vec2& u, float w) const {
   const Entry& entry = lights_[light];
-  if (entry.kind != Kind::Sun) return sample_entry(entry, point, u);
+  if (entry.kind != Kind::Sun) return sample_entry(entry, point, u, w);
   Vec3 direction = entry.light.direction;
   if (entry.one_minus_cos > 0) direction = Frame(direction).to_world(sample_cone(u, entry.one_minus_cos));
   return {direction, kInfinity, entry.light.color, 1, true};
@@ -365,7 +392,7 @@ void LightSet::look_up(ScatterBlock& block, size_t count, LightSample* others) c
       block.sky[i] = 1;
     } else {
       Vec3 point(block.point[0][i], block.point[1][i], block.point[2][i]);
-      others[i] = sample_of(block.light[i], point, {block.light_u[i], block.light_v[i]});
+      others[i] = sample_of(block.light[i], point, {block.light_u[i], block.light_v[i]}, block.light_w[i]);
       for (int c = 0; c < 3; ++c)
         block.to_light[c][i] = others[i].direction[c], block.radiance[c][i] = others[i].radiance[c];
       block.light_distance[i] = others[i].distance, block.light_pdf[i] = others[i].pdf;
@@ -374,7 +401,7 @@ void LightSet::look_up(ScatterBlock& block, size_t count, LightSample* others) c
   }
 }
 
-LightSample LightSet::sample_entry(const Entry& entry, const Vec3& point, const Vec2& u) const {
+LightSample LightSet::sample_entry(const Entry& entry, const Vec3& point, const Vec2& u, float w) const {
   switch (entry.kind) {
   case Kind::Mesh:
     return sample_mesh(entry, point, u);
@@ -392,6 +419,8 @@ LightSample LightSet::sample_entry(const Entry& entry, const Vec3& point, const 
     return sample_environment(environments_[entry.around].sample(u));
   case Kind::Ellipsoid:
     return sample_ellipsoid(entry, point, u);
+  case Kind::Volume:
+    return sample_volume(entry, point, u, w);
   case Kind::Point:
   case Kind::Spot:
     break;
@@ -399,15 +428,17 @@ LightSample LightSet::sample_entry(const Entry& entry, const Vec3& point, const 
   return sample_point(entry, point);
 }
 
-LightSample LightSet::sample_of(size_t light, const Vec3& point, const Vec2& u) const {
-  LightSample sample = sample_entry(lights_[light], point, u);
+LightSample LightSet::sample_of(size_t light, const Vec3& point, const Vec2& u, float w) const {
+  LightSample sample = sample_entry(lights_[light], point, u, w);
   if (sample.distance < kInfinity || sample.delta) sample.pdf /= float(lights_.size()); // the mixture's already is
   return sample;
 }
 
 LightSample LightSet::sample(const Vec3& point, float choice, const Vec2& u) const {
   if (lights_.empty()) return {};
-  return sample_of(std::min(size_t(choice * float(lights_.size())), lights_.size() - 1), point, u);
+  float place = choice * float(lights_.size());
+  size_t light = std::min(size_t(place), lights_.size() - 1);
+  return sample_of(light, point, u, place - float(light));
 }
 
 float LightSet::object_pdf(uint32_t object, uint32_t primitive, const Vec3& from, const Vec3& direction, float distance,

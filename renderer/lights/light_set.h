@@ -1,5 +1,5 @@
 // All lights of a scene, ready to be sampled: points, spots, sun, sky, surroundings, and objects whose material emits,
-// by their average emission. A light is chosen uniformly.
+// by their average emission: surfaces, and volumes that glow. A light is chosen uniformly.
 //
 // Directions that leave the scene form one "environment" of sun, sky and surroundings: its radiance and density are
 // sums over all, so that a direction drawn for one of them is weighed as the mixture that it is.
@@ -10,6 +10,7 @@
 #include "renderer/lights/environment.h"
 #include "renderer/lights/light_lanes.h"
 #include "renderer/scene/scene.h"
+#include "renderer/volumes/volume_set.h"
 
 #include <optional>
 #include <span>
@@ -17,35 +18,36 @@
 
 namespace moonshade::renderer {
 
-/// Who says what a light sends: the sample itself, or a shader yet to be asked.
-enum class Emitter : uint8_t { Known, Surface, Surroundings };
+/// Who says what a light sends: the sample itself, or a shader yet to be asked; of a volume, all that glows along the
+/// ray, up to the first surface.
+enum class Emitter : uint8_t { Known, Surface, Surroundings, Volume };
 
 /// Light that may arrive at a point from a direction, if nothing is in between.
 struct LightSample {
   Vec3 direction{0};
-  float distance = 0; ///< infinite for the environment
+  float distance = 0; ///< infinite for the environment; of a volume, to where the last of it ends
   Vec3 radiance{0};   ///< black: nothing from here. For a light without extent: irradiance on a facing surface
   float pdf = 0;      ///< per solid angle, choice of the light included
   bool delta = false; ///< no ray can find it by chance; then `pdf` is that of the choice alone
   /// Where not Known, `radiance` is 1 and still to be multiplied by what is emitted towards the point.
   Emitter emitter = Emitter::Known;
-  uint32_t object = 0, primitive = 0; ///< Surface
+  uint32_t object = 0, primitive = 0; ///< Surface, Volume
 };
 
 class LightSet {
 public:
-  LightSet(const Scene& scene, const Geometry& geometry, std::vector<ObjectEmission> emission,
+  LightSet(const Scene& scene, const Geometry& geometry, const VolumeSet& volumes, std::vector<ObjectEmission> emission,
            std::vector<Environment> environments);
 
   size_t count() const { return lights_.size(); }
-  /// One light chosen by `choice`.
+  /// One light chosen by `choice`, and a point of it by what is left of that and `u`.
   LightSample sample(const Vec3& point, float choice, const Vec2& u) const;
   /// The same for the lights that a block of points has drawn: what is a formula is left to the kernel (kernels.h), the
   /// rest is found. Emitters of the other points are Known.
   void look_up(struct ScatterBlock& block, size_t count, LightSample* others) const;
   /// A given light by itself, as direct lighting sums them: the density is that of this light alone, and the sun counts
   /// as irradiance from a direction within its disc. Not for skies.
-  LightSample sample_light(size_t light, const Vec3& point, const Vec2& u) const;
+  LightSample sample_light(size_t light, const Vec3& point, const Vec2& u, float w) const;
   bool is_sky(size_t light) const { return lights_[light].kind == Kind::Sky || lights_[light].kind == Kind::Around; }
 
   /// What shaders give excluded.
@@ -67,12 +69,14 @@ public:
   /// not sampled.
   float object_pdf(uint32_t object, uint32_t primitive, const Vec3& from, const Vec3& direction, float distance,
                    const Vec3& normal) const;
+  /// Density of `sample` for a direction in which a volume may be; 0 where it is not sampled.
+  float volume_pdf(uint32_t object, const Vec3& from, const Vec3& direction) const;
   /// Irradiance of the skies, without what stands before them, on a surface with this normal.
   Vec3 sky_irradiance(const Vec3& normal) const;
 
 private:
   friend class PhotonSource;
-  enum class Kind : uint8_t { Point, Spot, Sun, Sky, Around, Mesh, Sphere, Ellipsoid };
+  enum class Kind : uint8_t { Point, Spot, Sun, Sky, Around, Mesh, Sphere, Ellipsoid, Volume };
   struct Entry {
     Kind kind = Kind::Point;
     Light light{};
@@ -91,6 +95,7 @@ private:
     bool one_sided = false;
     float cos_inner = 1, cos_outer = 1; ///< Spot
     uint32_t around = 0;                ///< Around: index into environments_
+    const GlowGrid* glow = nullptr;     ///< Volume
   };
 
   void add_sky(const Light& light);
@@ -102,8 +107,9 @@ private:
   LightSample sample_ellipsoid(const Entry& entry, const Vec3& point, const Vec2& u) const;
   LightSample sample_point(const Entry& entry, const Vec3& point) const;
   /// As `sample` does, of a light that is chosen.
-  LightSample sample_of(size_t light, const Vec3& point, const Vec2& u) const;
-  LightSample sample_entry(const Entry& entry, const Vec3& point, const Vec2& u) const;
+  LightSample sample_of(size_t light, const Vec3& point, const Vec2& u, float w) const;
+  LightSample sample_entry(const Entry& entry, const Vec3& point, const Vec2& u, float w) const;
+  LightSample sample_volume(const Entry& entry, const Vec3& point, const Vec2& u, float w) const;
   LightSample sample_environment(const Vec3& direction) const;
   static float spot_share(const Entry& entry, const Vec3& to_light);
   static float ellipsoid_pdf(const PlacedObject& placed, const Vec3& unit);

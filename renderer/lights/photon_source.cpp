@@ -34,6 +34,8 @@ float PhotonSource::power_of(const LightSet::Entry& entry) const {
     return luminance(entry.light.color) * 2 * kPi * entry.one_minus_cos;
   case LightSet::Kind::Mesh:
     return entry.power * kPi * (entry.one_sided ? 1 : 2);
+  case LightSet::Kind::Volume:
+    return entry.glow->power() * 4 * kPi;
   case LightSet::Kind::Sphere:
   case LightSet::Kind::Ellipsoid:
     break;
@@ -79,6 +81,18 @@ EmittedPhoton PhotonSource::from_point(const LightSet::Entry& entry, const Vec2&
   if (!(pdf > 0)) return photon;
   photon.power = entry.light.color / pdf;
   if (entry.kind == LightSet::Kind::Spot) photon.power *= LightSet::spot_share(entry, -direction);
+  return photon;
+}
+
+/// From a point of what glows, in any direction.
+EmittedPhoton PhotonSource::from_volume(const LightSet::Entry& entry, const Vec2& at, float w, const Vec2& u) const {
+  GlowGrid::Point point = entry.glow->sample(at, w);
+  float z = 1 - 2 * u.x, r = std::sqrt(std::max(0.0f, 1 - z * z));
+  EmittedPhoton photon;
+  photon.ray = {point.world, 0, Vec3(r * std::cos(2 * kPi * u.y), r * std::sin(2 * kPi * u.y), z), kInfinity};
+  photon.power = point.density > 0 ? Vec3(4 * kPi / point.density) : Vec3(0);
+  photon.emitter = Emitter::Volume;
+  photon.object = entry.object;
   return photon;
 }
 
@@ -147,6 +161,9 @@ EmittedPhoton PhotonSource::emit(const Sampler& sampler) const {
   case LightSet::Kind::Spot:
     photon = from_point(entry, second, choice);
     break;
+  case LightSet::Kind::Volume:
+    photon = from_volume(entry, first, sampler.one(3), second);
+    break;
   case LightSet::Kind::Mesh:
   case LightSet::Kind::Sphere:
   case LightSet::Kind::Ellipsoid:
@@ -154,7 +171,7 @@ EmittedPhoton PhotonSource::emit(const Sampler& sampler) const {
     break;
   default: {
     bool point_like = entry.kind == LightSet::Kind::Sun && entry.one_minus_cos <= 0;
-    LightSample light = lights_.sample_entry(entry, Vec3(0), first);
+    LightSample light = lights_.sample_entry(entry, Vec3(0), first, 0);
     photon = from_far(light.direction, second, choice);
     if (point_like) {
       photon.power *= entry.light.color;

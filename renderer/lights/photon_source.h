@@ -12,7 +12,7 @@ struct EmittedPhoton {
   Vec3 power{0}; ///< divided by its density; black: none
   /// Where not Known, still to be multiplied by what is emitted along the ray.
   Emitter emitter = Emitter::Known;
-  uint32_t object = 0, primitive = 0; ///< Surface: the ray begins on it
+  uint32_t object = 0, primitive = 0; ///< Surface, Volume: the ray begins on it, within it
 };
 
 class PhotonSource {
@@ -27,6 +27,7 @@ public:
 private:
   EmittedPhoton from_far(const Vec3& to_light, const Vec2& u, float choice) const;
   EmittedPhoton from_point(const LightSet::Entry& entry, const Vec2& u, float choice) const;
+  EmittedPhoton from_volume(const LightSet::Entry& entry, const Vec2& at, float w, const Vec2& u) const;
   EmittedPhoton from_surface(const LightSet::Entry& entry, const Vec2& at, const Vec2& u, float choice) const;
   float power_of(const LightSet::Entry& entry) const;
   float far_pdf(const Vec3& to_light) const;

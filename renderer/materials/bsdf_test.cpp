@@ -61,7 +61,7 @@ TEST(Bsdf, WhiteSurfacesLoseAndGiveNothing) {
       for (float angle : {1.0f, 30.0f, 60.0f, 80.0f}) {
         Bsdf bsdf(values_of(kind, roughness), kUp, kUp, at_angle(angle), {kind.backface, kind.thin, false});
         float albedo = sampled_albedo(bsdf).x;
-        EXPECT_NEAR(albedo, 1, 0.025f) << kind.name << ", roughness " << roughness << ", " << angle << " degrees";
+        EXPECT_NEAR(albedo, 1, 0.0125f) << kind.name << ", roughness " << roughness << ", " << angle << " degrees";
       }
 }
 

@@ -2,6 +2,9 @@
 // mirroring.
 #include "renderer/test_support.h"
 
+#include "runtime/allowed_folders.h"
+
+#include <OpenImageIO/imageio.h>
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -20,13 +23,27 @@ std::string text(const Vec3& v) {
   return out.str();
 }
 
+/// An image whose red grows with u from 0 to 1, linearly, and whose green falls with v.
+void write_ramp(const std::string& path) {
+  constexpr int kSide = 64;
+  std::vector<float> texels;
+  for (int y = 0; y < kSide; ++y)
+    for (int x = 0; x < kSide; ++x)
+      texels.insert(texels.end(), {(float(x) + 0.5f) / kSide, (float(y) + 0.5f) / kSide, 0});
+  const auto output = OIIO::ImageOutput::create(path);
+  ASSERT_TRUE(output && output->open(path, OIIO::ImageSpec(kSide, kSide, 3, OIIO::TypeFloat)));
+  ASSERT_TRUE(output->write_image(OIIO::TypeFloat, texels.data()) && output->close());
+}
+
 /// The bent normal at the point M u of the unit sphere, seen from straight above it, as the shader of that surface sees
 /// it. `shader` gives height.
 Vec3 rendered_normal(const std::string& shader, const Vec3& u, const Vec3& scale, const std::string& bump,
-                     bool from_inside = false, const ShaderOptions& options = {}) {
+                     bool from_inside = false, ShaderOptions options = {}) {
   Vec3 point = u * scale, normal = glm::normalize(u / scale) * (from_inside ? -0.2f : 1.0f);
   TemporaryFolder folder;
   folder.write("bumpy.lua", shader + "\nfunction emission(n) return n * 0.5 + 0.5 end\n");
+  write_ramp(folder / "ramp.exr");
+  options.folders = {folder_of(folder / "scene.lua")};
   Folders folders = folder.folders();
   std::string scene = "camera{ from = " + text(point + normal) + ", to = " + text(point) +
                       ", fov = 0.01 } render{ width = 4, height = 4, samples = 1, depth = 1 }"
@@ -72,6 +89,21 @@ TEST(BumpGradient, FollowsADisplacedSphereUnderScaleAndMirroring) {
                 2e-4f);
     // From inside the viewer's normal is the negative of the outward one.
     expect_near(rendered_normal(shader, kPoint, scale, "gradient", true), -expected, 2e-4f);
+  }
+}
+
+TEST(BumpGradient, FollowsAnImage) {
+  const std::string shader =
+      "function height(p, fw) local t = texture('ramp.exr', p.xy * 0.25 + 0.5, fw) return t.x - 0.5 * t.y end";
+  const Vec3 g(0.25f, 0.125f, 0); // v goes up
+  for (const Vec3& scale : kScales) {
+    const Vec3 expected = expected_normal(kPoint, scale, g);
+    expect_near(rendered_normal(shader, kPoint, scale, "gradient"), expected, 2e-4f);
+    expect_near(rendered_normal(shader, kPoint, scale, "differences"), expected, 5e-3f);
+    expect_near(rendered_normal(shader, kPoint, scale, "gradient", false, {.backend = Backend::Interp}), expected,
+                5e-3f);
+    expect_near(rendered_normal(shader, kPoint, scale, "gradient", false, {.precision = Precision::F64}), expected,
+                2e-4f);
   }
 }
 

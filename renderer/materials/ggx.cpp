@@ -190,8 +190,8 @@ float CoatAlbedo::at(float cosine) const {
 }
 
 float glass_albedo(float cosine, float alpha, float eta) {
-  static const IndexTable table(-kLargestIndex, kLargestIndex, 2 * kIndices, [](float mu, float a, float index) {
-    return mean_over_normals(mu, a, 128, [&](const Vec3& v, const Vec3& h, float c) {
+  static const IndexTable table(-kLargestIndex, kLargestIndex, 3 * kIndices, [](float mu, float a, float index) {
+    return mean_over_normals(mu, a, 256, [&](const Vec3& v, const Vec3& h, float c) {
       float f = fresnel_dielectric(c, index);
       return f * leaving_above(v, h, c, a) + (f < 1 ? (1 - f) * leaving_below(v, h, c, a, index) : 0.0f);
     });

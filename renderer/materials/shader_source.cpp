@@ -5,6 +5,7 @@
 #include "renderer/scene/folders.h"
 #include "renderer/scene/nearest_name.h"
 #include "runtime/frontend.h"
+#include "runtime/images/file_images.h"
 #include "runtime/interpret.h"
 
 #include <filesystem>
@@ -17,21 +18,34 @@ namespace {
 
 struct ShaderFile {
   std::unique_ptr<CheckedShader> checked;
-  std::shared_ptr<const Program> program;
+  /// By the values that are baked into it; without them there is one.
+  std::map<std::map<std::string, Constant>, std::shared_ptr<const Program>> programs;
   std::string error, warnings;
 };
 
 class RuntimeShaders : public ShaderSource {
 public:
-  explicit RuntimeShaders(const ShaderOptions& options) : options_(options) {}
+  explicit RuntimeShaders(const ShaderOptions& options) : options_(options) {
+    AllowedFolders folders;
+    for (const std::string& folder : options.folders)
+      folders.allow(folder);
+    images_ = [this, open = file_images(folders)](const std::string& file, const std::string& from, bool raw) {
+      OpenedImage opened = open(file, from, raw);
+      if (opened.image != nullptr) images_opened_.push_back(opened.path);
+      return opened;
+    };
+  }
 
   ShaderLoad load(const std::string& file, const std::map<std::string, Constant>& parameters,
                   const std::map<std::string, std::string>& overrides) override;
 
 private:
   ShaderFile& open(const std::string& file);
+  std::shared_ptr<const Program> program(ShaderFile& shader, const std::map<std::string, Constant>& baked);
 
   ShaderOptions options_;
+  ImageOpener images_;
+  std::vector<std::string> images_opened_; ///< by the shader that is being loaded
   std::map<std::string, ShaderFile> files_;
 };
 
@@ -48,17 +62,30 @@ ShaderFile& RuntimeShaders::open(const std::string& file) {
   print_text(shader.checked->diagnostics(), shader.checked->sources(), messages, options_.color_diagnostics);
   if (!shader.checked->ok()) return shader.error = messages.str(), shader;
   shader.warnings = messages.str();
-  if (options_.backend == Backend::Interp) return shader;
+  if (options_.backend == Backend::Jit && !options_.bake) program(shader, {});
+  return shader;
+}
+
+/// Null with the shader's error set, where it cannot be compiled.
+std::shared_ptr<const Program> RuntimeShaders::program(ShaderFile& shader,
+                                                       const std::map<std::string, Constant>& baked) {
+  const auto [found, is_new] = shader.programs.try_emplace(baked);
+  if (!is_new) return found->second;
   CompileOptions compile_options;
   compile_options.precision = options_.precision;
   compile_options.width = options_.width;
   compile_options.uniform_inputs = {"time", "frame"};
   compile_options.color_diagnostics = options_.color_diagnostics;
   compile_options.gradients = {height_gradient()};
+  compile_options.images = images_;
+  compile_options.bake = options_.bake;
+  compile_options.baked = baked;
+  compile_options.cache = options_.cache;
+  compile_options.background = options_.background;
   Compilation compiled = compile(*shader.checked, compile_options);
-  shader.program = compiled.program;
-  if (!shader.program) shader.error = compiled.diagnostics.empty() ? file + ": not compiled" : compiled.diagnostics;
-  return shader;
+  const std::string file(shader.checked->sources().name(FileId{0}));
+  if (!compiled.program) shader.error = compiled.diagnostics.empty() ? file + ": not compiled" : compiled.diagnostics;
+  return found->second = compiled.program;
 }
 
 /// Every given parameter as a value of its type, or an error that names it; those that the shader lacks go to
@@ -108,18 +135,22 @@ ShaderLoad RuntimeShaders::load(const std::string& file, const std::map<std::str
   ShaderLoad load;
   if (!shader.error.empty()) return load.error = shader.error, load;
   load.warnings = std::exchange(shader.warnings, "");
-  const SourceSet& sources = shader.checked->sources();
-  for (FileId source = 0; source < sources.size(); ++source)
-    load.files.emplace_back(sources.name(source));
+  load.files = shader.checked->files();
   std::map<std::string, Constant> merged;
   load.error = merge(shader.checked->info(), parameters, overrides, merged, load.unknown);
   if (!load.error.empty()) return load.error = file + ": " + load.error, load;
   // Steps are counted exactly where the shader is compiled; the interpreter's guard against endless loops is enough
   // here.
-  Instantiation instance = options_.backend == Backend::Interp
-                               ? interpret(*shader.checked, merged, {.count_steps = false, .impatient = true})
-                               : shader.program->instantiate(merged);
+  Instantiation instance;
+  if (options_.backend == Backend::Interp)
+    instance = interpret(*shader.checked, merged, {.count_steps = false, .impatient = true, .images = images_});
+  else if (const auto compiled = program(shader, options_.bake ? merged : std::map<std::string, Constant>{}))
+    instance = compiled->instantiate(options_.bake ? std::map<std::string, Constant>{} : merged);
+  else
+    return load.error = shader.error, load;
   load.shader = instance.shader;
+  load.files.insert(load.files.end(), images_opened_.begin(), images_opened_.end());
+  images_opened_.clear();
   if (!load.shader) load.error = file + ": " + instance.error;
   return load;
 }

@@ -17,7 +17,7 @@ struct ShaderLoad {
   /// Given names that are no parameters of this shader, each with a message for where no other shader of the material
   /// has it either.
   std::map<std::string, std::string> unknown = {};
-  std::vector<std::string> files = {}; ///< that it was read from: its own, and its modules'
+  std::vector<std::string> files = {}; ///< that it was read from: its own, its modules' and its images
 };
 
 class ShaderSource {
@@ -35,9 +35,14 @@ struct ShaderOptions {
   Precision precision = Precision::F32;
   unsigned width = 0; ///< 0: the best
   bool color_diagnostics = false;
+  std::vector<std::string> folders = {}; ///< in which, and below, the shaders' images lie
+  /// As in CompileOptions; none of them changes a pixel.
+  bool bake = false;
+  std::shared_ptr<ObjectCache> cache = {};
+  std::shared_ptr<BackgroundCompiler> background = {};
 };
 
-/// By the runtime. Each file is read, checked and compiled once.
+/// By the runtime. Each file is read and checked once, and compiled once, or with `bake` once for each set of values.
 std::unique_ptr<ShaderSource> runtime_shaders(const ShaderOptions& options);
 
 } // namespace moonshade::renderer

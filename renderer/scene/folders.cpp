@@ -1,51 +1,21 @@
-// Resolution of file names against the folders that a scene may use; whole files as text.
+// What a scene has used of its folders; whole files as text.
 #include "renderer/scene/folders.h"
 
-#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 
 namespace moonshade::renderer {
 
 namespace fs = std::filesystem;
 
-std::string folder_of(const std::string& file) {
-  fs::path parent = fs::path(file).parent_path();
-  return parent.empty() ? "." : parent.string();
-}
-
-void Folders::allow_folder_of(const std::string& file) {
-  std::error_code error;
-  fs::path root = fs::canonical(folder_of(file), error);
-  if (!error && std::find(roots_.begin(), roots_.end(), root) == roots_.end()) roots_.push_back(root);
-}
-
-static bool lies_in(const fs::path& path, const fs::path& root) {
-  auto [end, unused] = std::mismatch(root.begin(), root.end(), path.begin(), path.end());
-  return end == root.end();
-}
+void Folders::allow_folder_of(const std::string& file) { allowed_.allow(folder_of(file)); }
 
 ResolvedPath Folders::resolve(const std::string& base_folder, const std::string& name) const {
-  if (name.empty()) return {"", "an empty file name"};
-  if (name.find('\0') != std::string::npos) return {"", "a file name with a zero byte"};
-  // Windows exporters write backslashes; a file of that very name wins.
-  std::string portable = name;
-  std::error_code error;
-  fs::path path = fs::path(base_folder) / portable;
-  if (!fs::exists(path, error)) {
-    std::replace(portable.begin(), portable.end(), '\\', '/');
-    path = fs::path(base_folder) / portable;
-  }
-  fs::path real = fs::weakly_canonical(path, error);
-  bool inside =
-      !error && std::any_of(roots_.begin(), roots_.end(), [&](const fs::path& r) { return lies_in(real, r); });
-  if (!inside) return {"", "'" + name + "' lies outside the folders of the scene"};
-  if (!fs::exists(real, error)) return {"", "there is no file '" + name + "'"};
-  if (!fs::is_regular_file(real, error)) return {"", "'" + name + "' is not a file"};
-  std::string normal = path.lexically_normal().string();
-  used_.insert(normal);
-  return {std::move(normal), ""};
+  ResolvedPath resolved = allowed_.resolve(base_folder, name);
+  if (resolved.error.empty()) used_.insert(resolved.path);
+  return resolved;
 }
 
 FileText read_file(const std::string& path, uint64_t limit) {

@@ -2,18 +2,12 @@
 // Symbolic links are followed before the check, so they lead nowhere else either.
 #pragma once
 
-#include <filesystem>
+#include "runtime/allowed_folders.h"
+
 #include <set>
 #include <string>
-#include <vector>
 
 namespace moonshade::renderer {
-
-/// A path, or why it may not be used.
-struct ResolvedPath {
-  std::string path;
-  std::string error;
-};
 
 class Folders {
 public:
@@ -27,12 +21,9 @@ public:
   const std::set<std::string>& used() const { return used_; }
 
 private:
-  std::vector<std::filesystem::path> roots_; ///< canonical
-  mutable std::set<std::string> used_;       ///< a record only: decides nothing
+  AllowedFolders allowed_;
+  mutable std::set<std::string> used_; ///< a record only: decides nothing
 };
-
-/// The folder part of a path; "." where there is none.
-std::string folder_of(const std::string& file);
 
 /// A whole file, at most `limit` bytes.
 struct FileText {

@@ -195,7 +195,7 @@ TEST(ObjReader, GoesOnWithoutAMaterialFileButNotOutsideItsFolder) {
   ObjReading obj = read_obj(path, folders);
   ASSERT_TRUE(obj.mesh) << obj.error;
   ASSERT_EQ(obj.warnings.size(), 2u);
-  EXPECT_THAT(obj.warnings[0], HasSubstr("m.obj:1: '../secret.mtl' lies outside the folders of the scene"));
+  EXPECT_THAT(obj.warnings[0], HasSubstr("m.obj:1: '../secret.mtl' lies outside the folders that may be read"));
   EXPECT_THAT(obj.warnings[1], HasSubstr("m.obj:2: there is no file 'none.mtl'"));
 }
 

@@ -9,42 +9,94 @@ namespace {
 
 constexpr int kCells = 48; ///< along the longest side
 constexpr int kEach = 64;  ///< points looked at in a cell
-constexpr float kSafety = 1.25f;
+constexpr int kEachGlow = 32;
 constexpr float kLeast = 4e-3f; ///< of the greatest control: none is zero where a shader may be greater
 
-/// The density at points of every cell; a fault counts as nothing here and is met again while rendering.
-std::vector<float> measure(const Scene& scene, const PlacedObject& placed, uint32_t id,
-                           const CompiledMaterial& material, const Volume& volume) {
-  size_t count = size_t(volume.size[0]) * size_t(volume.size[1]) * size_t(volume.size[2]);
-  std::vector<float> greatest(count, material.volume->density_constant);
-  if (!material.volume->density) return greatest;
-  constexpr size_t kBatch = 4096;
-  ShadingBatch batch(kBatch, scene.settings.time, scene.settings.frame);
-  std::vector<size_t> cells;
-  FaultReport ignored;
-  auto flush = [&] {
-    std::fill_n(batch.scratch_codes.data(), cells.size(), uint8_t(0));
-    float* out[1] = {batch.results[0].data()};
-    material.volume->density->run(batch, 0, cells.size(), EntryCall::inputs_of(batch, 0), out,
-                                  batch.scratch_codes.data(), ignored);
-    for (size_t k = 0; k < cells.size(); ++k)
-      greatest[cells[k]] = std::max(greatest[cells[k]], out[0][k]);
-    cells.clear();
-  };
-  for (size_t cell = 0; cell < count; ++cell)
-    for (uint32_t k = 0; k < kEach; ++k) {
-      Sampler sampler(11, uint32_t(cell), k);
-      size_t row = cell / size_t(volume.size[0]);
-      Vec3 at(float(cell % size_t(volume.size[0])), float(row % size_t(volume.size[1])),
-              float(row / size_t(volume.size[1])));
-      Vec3 local = volume.low + volume.cell * (at + Vec3(sampler.two(0), sampler.one(1)));
-      Vec3 world = Vec3(placed.object->to_world * Vec4(local, 1));
-      fill_volume_inputs(batch, cells.size(), local, world, Vec3(0, 0, 1), 0, id);
-      cells.push_back(cell);
-      if (cells.size() == kBatch) flush();
+/// Looks at points of every cell of a grid over a volume's box, `each` of them, and calls visit(cell, results) for
+/// each; a fault counts as nothing here and is met again while rendering.
+class Meter {
+public:
+  Meter(const Scene& scene, const PlacedObject& placed, uint32_t id, const Vec3& low, const Vec3& cell, const int* size)
+      : placed_(placed), id_(id), low_(low), cell_(cell), size_(size),
+        batch_(kBatch, scene.settings.time, scene.settings.frame) {}
+
+  template <typename Visit> void look(const EntryCall& entry, uint32_t each, Visit visit) {
+    for (size_t cell = 0; cell < cell_count(size_); ++cell)
+      for (uint32_t k = 0; k < each; ++k) {
+        Sampler sampler(11, uint32_t(cell), k);
+        Vec3 local = low_ + cell_ * (cell_corner(cell, size_) + Vec3(sampler.two(0), sampler.one(1)));
+        Vec3 world = Vec3(placed_.object->to_world * Vec4(local, 1));
+        fill_volume_inputs(batch_, cells_.size(), local, world, Vec3(0, 0, 1), 0, id_);
+        cells_.push_back(cell);
+        if (cells_.size() == kBatch) flush(entry, visit);
+      }
+    flush(entry, visit);
+  }
+
+private:
+  static constexpr size_t kBatch = 4096;
+
+  template <typename Visit> void flush(const EntryCall& entry, Visit visit) {
+    std::fill_n(batch_.scratch_codes.data(), cells_.size(), uint8_t(0));
+    float* out[3];
+    for (size_t c = 0; c < 3; ++c)
+      out[c] = batch_.results[c].data();
+    FaultReport ignored;
+    entry.run(batch_, 0, cells_.size(), EntryCall::inputs_of(batch_, 0), out, batch_.scratch_codes.data(), ignored);
+    for (size_t k = 0; k < cells_.size(); ++k)
+      visit(cells_[k], Vec3(out[0][k], out[1][k], out[2][k]));
+    cells_.clear();
+  }
+
+  const PlacedObject& placed_;
+  uint32_t id_;
+  Vec3 low_, cell_;
+  const int* size_;
+  ShadingBatch batch_;
+  std::vector<size_t> cells_;
+};
+
+/// As many cells as there are `most` along the longest side, all nearly cubes.
+void divide(const Vec3& extent, int most, int* size) {
+  float side = max_component(extent) / float(most);
+  for (int c = 0; c < 3; ++c)
+    size[c] = std::clamp(int(std::ceil(extent[c] / side)), 1, most);
+}
+
+/// Null where nothing glows.
+std::unique_ptr<GlowGrid> make_glow(const Scene& scene, const PlacedObject& placed, uint32_t id,
+                                    const VolumeCalls& calls, const Vec3& low, const Vec3& extent) {
+  if (!calls.glows()) return nullptr;
+  int size[3];
+  divide(extent, GlowGrid::kCells, size);
+  size_t count = cell_count(size);
+  std::vector<float> brightness(count, luminance(calls.emission_constant));
+  if (calls.emission) {
+    std::vector<double> sums(count, 0.0);
+    Vec3 cell(extent.x / float(size[0]), extent.y / float(size[1]), extent.z / float(size[2]));
+    Meter meter(scene, placed, id, low, cell, size);
+    meter.look(*calls.emission, kEachGlow, [&](size_t at, const Vec3& emission) {
+      sums[at] += double(std::max(luminance(glm::max(emission, Vec3(0))), 0.0f));
+    });
+    double all = 0;
+    for (double sum : sums)
+      all += sum;
+    // A share of the mean everywhere: points may be brighter than what was seen of their cell.
+    double floor = 0.05 * all / double(count);
+    for (size_t k = 0; k < count; ++k)
+      brightness[k] = float((sums[k] + floor) / kEachGlow);
+  }
+  // Of a sphere, cells of the corners hold nothing.
+  if (placed.object->shape == Shape::Sphere)
+    for (size_t k = 0; k < count; ++k) {
+      Vec3 cell = extent / Vec3(size[0], size[1], size[2]), a = low + cell * cell_corner(k, size), b = a + cell;
+      if (glm::length(glm::clamp(Vec3(0), a, b)) > placed.object->radius) brightness[k] = 0;
     }
-  flush();
-  return greatest;
+  double all = 0;
+  for (float b : brightness)
+    all += double(b);
+  if (!(all > 0) || !std::isfinite(all)) return nullptr;
+  return std::make_unique<GlowGrid>(placed, low, extent, size, brightness);
 }
 
 std::unique_ptr<Volume> make_volume(const Scene& scene, const PlacedObject& placed, uint32_t id,
@@ -60,31 +112,35 @@ std::unique_ptr<Volume> make_volume(const Scene& scene, const PlacedObject& plac
   if (box.empty()) box.add(Vec3(0));
   Vec3 extent = glm::max(box.high - box.low, Vec3(1e-6f));
   box.low -= extent * 1e-4f, extent *= 1 + 2e-4f;
-  float side = max_component(extent) / kCells;
-  for (int c = 0; c < 3; ++c) {
-    volume->size[c] = std::clamp(int(std::ceil(extent[c] / side)), 1, kCells);
+  divide(extent, kCells, volume->size);
+  for (int c = 0; c < 3; ++c)
     volume->cell[c] = extent[c] / float(volume->size[c]);
-  }
   volume->low = box.low;
-  std::vector<float> greatest = measure(scene, placed, id, material, *volume);
+  const int* n = volume->size;
+  std::vector<float> greatest(cell_count(n), material.volume->density_constant);
+  if (material.volume->density)
+    Meter(scene, placed, id, volume->low, volume->cell, n)
+        .look(*material.volume->density, kEach,
+              [&](size_t cell, const Vec3& result) { greatest[cell] = std::max(greatest[cell], result.x); });
   // The neighbours' too: maxima lie between the points.
   float all = *std::max_element(greatest.begin(), greatest.end());
   float least = material.volume->glows()
-                    ? std::max(all * kLeast, 4 / max_component(extent)) // glow is found where light collides
+                    ? std::max(all * kLeast, 16 / max_component(extent)) // glow is found where light collides
                     : all * kLeast;
-  const int* n = volume->size;
   volume->controls.resize(greatest.size());
   for (int z = 0; z < n[2]; ++z)
     for (int y = 0; y < n[1]; ++y)
       for (int x = 0; x < n[0]; ++x) {
         float most = 0;
         for (int k = 0; k < 27; ++k) {
-          int i = std::clamp(x + k % 3 - 1, 0, n[0] - 1), j = std::clamp(y + k / 3 % 3 - 1, 0, n[1] - 1),
-              l = std::clamp(z + k / 9 - 1, 0, n[2] - 1);
-          most = std::max(most, greatest[size_t((l * n[1] + j) * n[0] + i)]);
+          const int at[] = {std::clamp(x + k % 3 - 1, 0, n[0] - 1), std::clamp(y + k / 3 % 3 - 1, 0, n[1] - 1),
+                            std::clamp(z + k / 9 - 1, 0, n[2] - 1)};
+          most = std::max(most, greatest[cell_index(at, n)]);
         }
-        volume->controls[size_t((z * n[1] + y) * n[0] + x)] = std::max(kSafety * most, least);
+        const int here[] = {x, y, z};
+        volume->controls[cell_index(here, n)] = std::max(Volume::kSafety * most, least);
       }
+  volume->glow = make_glow(scene, placed, id, *material.volume, box.low, extent);
   return volume;
 }
 

@@ -1,6 +1,7 @@
 // Hypertextures against closed forms: what passes, what is scattered once and for ever, what glows.
 #include "renderer/sampling/warp.h"
 #include "renderer/test_support.h"
+#include "renderer/volumes/volume_controls.h"
 
 #include <gtest/gtest.h>
 
@@ -113,6 +114,188 @@ TEST(Volumes, GlowAsLongAsTheyAre) {
   EXPECT_NEAR(glow("0").y, 2, 0.04f);
   EXPECT_NEAR(glow("2").y, 2 * (1 - std::exp(-2.0f)) / 2, 0.02f);
   EXPECT_EQ(glow("2").z, 0);
+}
+
+/// A floor at y = 0 under a ball of this radius at height h that glows by 1 per unit of length and absorbs nothing: as
+/// gravity is, irradiance is that of a point, of the ball's volume times its glow, at its middle.
+std::string under_a_ball(float h, float radius, const std::string& integrator, int samples,
+                         const std::string& more = "") {
+  return "camera{ from = {0.02, 0.3, 0}, to = {0, 0, 0}, fov = 1 } plane{ material = material{ name = 'floor', color = "
+         "0.5, ior = 1 } } sphere{ radius = " +
+         std::to_string(radius) + ", translate = {0, " + std::to_string(h) +
+         ", 0}, material = material{ color = 0, density = 0, emission = {2, 1, 0} } } light{ type = 'sky', intensity = "
+         "0 } render{ width = 8, height = 8, depth = 2, integrator = '" +
+         integrator + "', samples = " + std::to_string(samples) + more + " } ";
+}
+float lit_by_a_ball(float h, float radius) {
+  return 0.5f / kPi * (4.0f / 3 * kPi * radius * radius * radius) / (h * h);
+}
+
+TEST(Glow, LightsAFloorAsGravityPulls) {
+  struct {
+    float h, radius;
+  } balls[] = {{2, 0.1f}, {2, 0.5f}, {1.5f, 1.0f}, {5, 1.5f}};
+  for (auto [h, radius] : balls)
+    for (const char* integrator : {"path", "whitted", "sppm", "irradiance"}) {
+      float expected = lit_by_a_ball(h, radius);
+      Vec3 value = mean_of(under_a_ball(h, radius, integrator, 64, ", photons = 1000"));
+      EXPECT_NEAR(value.y, expected, 0.01f * expected) << h << " " << radius << " " << integrator;
+      EXPECT_NEAR(value.x, 2 * value.y, 1e-4f * value.x);
+    }
+}
+
+/// Relative standard deviation of a sample.
+float noise_of(const std::string& scene, std::shared_ptr<const Shader> shader = nullptr) {
+  testing::Rendering r = testing::render_text(scene, std::move(shader), {.contents = {.squares = true}});
+  EXPECT_EQ(r.error, "");
+  double variance = 0, mean = 0;
+  for (size_t k = 0; k < r.result.film->pixel_count(); ++k) {
+    variance += double(r.result.film->variance(k).y) * r.result.samples;
+    mean += double(r.result.film->mean(k).y);
+  }
+  double count = double(r.result.film->pixel_count());
+  return float(std::sqrt(variance / count) / (mean / count));
+}
+
+TEST(Glow, IsFoundHoweverSmall) {
+  // Rays of the floor's own meet a ball of 0.1 at 2 with a probability of 1/400: a deviation of 20 for each sample.
+  EXPECT_LT(noise_of(under_a_ball(2, 0.1f, "path", 64)), 1.0f);
+  EXPECT_LT(noise_of(under_a_ball(1.02f, 1.0f, "path", 64)), 1.0f);
+}
+
+TEST(Glow, OfAShaderIsSampledByWhereItIs) {
+  // A bright corner of a box without density otherwise dark; and what a stone before it leaves.
+  auto corner = std::make_shared<CppShader>();
+  corner->add("density", {{"p", ValueType::Vec3}}, ValueType::Number,
+              [](const double*, double* out) { return out[0] = 0, FaultCode::None; });
+  corner->add("emission", {{"p", ValueType::Vec3}}, ValueType::Vec3, [](const double* in, double* out) {
+    double d = std::hypot(in[0] - 0.3, in[1] - 0.3, in[2] - 0.3);
+    return out[0] = out[1] = out[2] = d < 0.15 ? 20 : 0, FaultCode::None;
+  });
+  std::string scene = "camera{ from = {0.02, 0.3, 0}, to = {0, 0, 0}, fov = 1 } plane{ material = material{ name = "
+                      "'floor', color = 0.5, ior = 1 } } box{ translate = {-0.3, 1.7, -0.3}, material = material{ "
+                      "color = 0, shader = 'fake.lua' } } render{ width = 8, height = 8, depth = 2, samples = 256, "
+                      "photons = 1000 ";
+  float expected = 20 * lit_by_a_ball(2, 0.15f);
+  for (const char* integrator : {"path", "sppm"})
+    EXPECT_NEAR(mean_of(scene + ", integrator = '" + integrator + "' }", corner).x, expected, 0.015f * expected)
+        << integrator;
+  EXPECT_LT(noise_of(scene + "}", corner), 2.0f);
+  EXPECT_EQ(mean_of(scene + "} rectangle{ center = {0, 1, 0}, u = {1, 0, 0}, v = {0, 0, 1}, material = material{ name "
+                            "= 'lid', color = 0 } }",
+                    corner),
+            Vec3(0));
+}
+
+TEST(Glow, FadesOnItsWayAndIsScatteredOnce) {
+  // A ball that absorbs what it emits: along each ray (1 - exp(-2 s r cos a)) / s, over the angle a to the middle's.
+  float h = 2, radius = 0.8f, s = 3;
+  double expected = 0;
+  constexpr int kSteps = 20000;
+  double most = std::asin(double(radius / h));
+  for (int k = 0; k < kSteps; ++k) {
+    double a = (k + 0.5) / kSteps * most, side = h * std::sin(a);
+    double chord = 2 * std::sqrt(std::max(0.0, double(radius) * radius - side * side));
+    expected += 2 * double(kPi) * std::sin(a) * std::cos(a) * (1 - std::exp(-s * chord)) / s * (most / kSteps);
+  }
+  expected *= 0.5 / double(kPi);
+  std::string scene = under_a_ball(h, radius, "path", 256);
+  scene.replace(scene.find("density = 0"), 11, "density = 3");
+  EXPECT_NEAR(mean_of(scene).y, expected, 0.01 * expected);
+  // White, it scatters also what it emits, and photons say the same of a wider piece of the floor.
+  scene.replace(scene.find("color = 0, density"), 9, "color = 1").replace(scene.find("depth = 2"), 9, "depth = 9");
+  EXPECT_GT(mean_of(scene).y, 1.2f * float(expected));
+  scene.replace(scene.find("fov = 1"), 7, "fov = 60");
+  float path = mean_of(scene).y;
+  scene.replace(scene.find("'path'"), 6, "'sppm', photons = 10000")
+      .replace(scene.find("samples = 256"), 13, "samples = 24");
+  EXPECT_NEAR(mean_of(scene).y, path, 0.03f * path);
+}
+
+TEST(Glow, InARoomIsTheSameForPathsAndPhotons) {
+  // Light that has bounced off a wall, and a mirror that shows the flame and what it lights.
+  std::string scene =
+      "camera{ from = {0, 1, 5}, to = {0, 0.7, 0}, fov = 50 } plane{ material = material{ name = 'floor', color = 0.7, "
+      "ior = 1 } } plane{ point = {0, 0, -1.5}, normal = {0, 0, 1}, material = material{ name = 'wall', color = {0.8, "
+      "0.5, 0.4}, ior = 1 } } box{ center = {0.8, 0.5, 0}, size = 0.8, material = material{ color = 0.5, density = 1, "
+      "emission = 2 } } sphere{ center = {-0.8, 0.5, 0.2}, radius = 0.5, material = material{ name = 'ball', color = "
+      "0.9, metallic = 1, roughness = 0.1 } } render{ width = 24, height = 16, depth = 6, photons = 20000, samples = ";
+  float path = mean_of(scene + "400, integrator = 'path' }").x;
+  float sppm = mean_of(scene + "64, integrator = 'sppm' }").x;
+  EXPECT_NEAR(sppm, path, 0.03f * path);
+}
+
+TEST(Controls, AreRaisedBetweenPassesByWhatIsGreatest) {
+  TemporaryFolder folder;
+  Folders folders = folder.folders();
+  SceneReading reading =
+      parse_lua_scene(folder / "scene.lua", "sphere{} box{ material = material{ density = 2 } }", folders);
+  ASSERT_EQ(reading.error, "");
+  FixedShaders shaders;
+  Preparation preparation = prepare(std::move(*reading.scene), shaders);
+  ASSERT_EQ(preparation.error, "");
+  VolumeControls controls(*preparation.prepared->volumes);
+  EXPECT_EQ(controls.at(1, 5), 2.5f);
+  controls.note(1, 5, 3);
+  controls.note(1, 5, 8);
+  controls.note(1, 5, 4);
+  controls.note(1, 6, 2.4f);
+  EXPECT_EQ(controls.at(1, 5), 2.5f); // not within the pass
+  controls.raise();
+  EXPECT_EQ(controls.at(1, 5), 10);
+  EXPECT_EQ(controls.at(1, 6), 2.5f);
+  EXPECT_EQ(controls.at(1, 7), 2.5f);
+  controls.raise();
+  EXPECT_EQ(controls.at(1, 5), 10);
+}
+
+TEST(Controls, ThatWereTooLowBringNoiseForAFewPassesOnly) {
+  auto ramp = density([](const double* p) { return 4 * (p[0] + 0.5); });
+  // Deviation of the pixels' samples 65 to 512, from the pictures of the first 64 and of all.
+  auto deviation = [&](float factor) {
+    TemporaryFolder folder;
+    folder.write("fake.lua", "-- a shader in C++ stands in\n");
+    Folders folders = folder.folders();
+    SceneReading reading = parse_lua_scene(
+        folder / "scene.lua",
+        kThrough + settings(512, 8) + "box{ material = material{ color = 0, shader = 'fake.lua' } }", folders);
+    FixedShaders shaders(ramp);
+    Preparation preparation = prepare(std::move(*reading.scene), shaders);
+    preparation.prepared->volumes->multiply_controls(factor);
+    Picture first;
+    RenderOptions options;
+    options.after_pass = [&](RenderState& state, bool) {
+      if (state.samples() == 64) first = state.picture();
+    };
+    RenderProgress progress;
+    RenderResult result = render(*preparation.prepared, options, progress);
+    double sum = 0;
+    for (size_t k = 0; k < result.picture.pixels.size(); ++k) {
+      double late = (512.0 * double(result.picture.pixels[k].x) - 64.0 * double(first.pixels.at(k).x)) / 448;
+      sum += (late - std::exp(-2.0)) * (late - std::exp(-2.0));
+    }
+    return std::sqrt(sum / double(result.picture.pixels.size()));
+  };
+  EXPECT_LT(deviation(0.03f), 1.5 * deviation(1));
+}
+
+TEST(Controls, AreTheSameForAnyNumberOfThreads) {
+  // Specks so rare that looking at the cells misses most of them.
+  auto specks = density([](const double* p) {
+    double h = std::sin(p[0] * 127.1 + p[1] * 311.7 + p[2] * 74.7) * 43758.5453;
+    return h - std::floor(h) < 3e-4 ? 60.0 : 2.0;
+  });
+  std::string scene = "camera{ from = {0, 0.6, 4} } light{ type = 'sky' } box{ material = material{ color = 0.9, "
+                      "shader = 'fake.lua' } } render{ width = 24, height = 16, samples = 64, photons = 2000, "
+                      "integrator = '";
+  for (const char* integrator : {"path", "sppm"}) {
+    auto picture = [&](unsigned threads) {
+      testing::Rendering r = testing::render_text(scene + integrator + "' }", specks, {.threads = threads});
+      EXPECT_EQ(r.error, "");
+      return r.result.picture.pixels;
+    };
+    EXPECT_EQ(picture(1), picture(3)) << integrator;
+  }
 }
 
 TEST(Volumes, NegativeDensitiesCountAsNone) {

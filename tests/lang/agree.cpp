@@ -3,6 +3,7 @@
 #include "runtime/frontend.h"
 #include "runtime/interpret.h"
 #include "tests/lang/checks.h"
+#include "tools/support/images.h"
 #include "tools/support/points.h"
 
 #include <algorithm>
@@ -119,11 +120,14 @@ size_t first_difference(const Points& a, const Points& b, double near = 0) {
 
 class Agreement {
 public:
-  Agreement(const CheckedShader& checked, const Directives& directives) : checked_(checked), directives_(directives) {}
+  Agreement(const CheckedShader& checked, const Directives& directives)
+      : checked_(checked), directives_(directives),
+        images_(tools::images_of(std::string(checked.sources().name(FileId{0})))) {}
 
   std::string check() {
     if (checked_.info().entries.empty()) return "  the program has no entry\n";
-    const Instantiation lua = interpret(checked_, {}, {.count_steps = true, .step_limit = directives_.step_limit});
+    const Instantiation lua =
+        interpret(checked_, {}, {.count_steps = true, .step_limit = directives_.step_limit, .images = images_});
     if (!lua.shader) return "  stock Lua: " + lua.error + "\n";
     for (size_t entry = 0; entry < checked_.info().entries.size(); ++entry) {
       doubles_.push_back(shaded(*lua.shader, entry));
@@ -132,7 +136,8 @@ public:
     }
     if (directives_.near == 0)
       check_runs("stock Lua", [&](const auto& parameters) {
-        return interpret(checked_, parameters, {.count_steps = true, .step_limit = directives_.step_limit});
+        return interpret(checked_, parameters,
+                         {.count_steps = true, .step_limit = directives_.step_limit, .images = images_});
       });
     for (int optimization : {2, 0})
       for (Precision precision : {Precision::F32, Precision::F64})
@@ -154,6 +159,7 @@ private:
 
   void check_variant(const Variant& variant) {
     CompileOptions options;
+    options.images = images_;
     options.precision = variant.precision;
     options.width = variant.width;
     options.optimization = variant.optimization;
@@ -191,6 +197,7 @@ private:
 
   std::shared_ptr<const Shader> compiled(const Variant& variant, const std::vector<std::string>& uniform_inputs) {
     CompileOptions options;
+    options.images = images_;
     options.precision = variant.precision;
     options.width = variant.width;
     options.optimization = variant.optimization;
@@ -308,6 +315,7 @@ private:
 
   const CheckedShader& checked_;
   const Directives& directives_;
+  const ImageOpener images_;
   std::vector<Points> doubles_;                     ///< stock Lua's, for each entry
   std::vector<std::optional<Points>> floats_;       ///< the first f32 variant's
   std::vector<std::optional<Points>> near_doubles_; ///< the first f64 variant's, where stock Lua is only near

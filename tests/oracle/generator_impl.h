@@ -61,6 +61,7 @@ private:
 
   // ---- the library (generator_library.cpp) ----
   std::string library(T type, int depth);
+  std::string sum_of_function(int depth);
 
   // ---- tables (generator_tables.cpp) ----
   void make_shapes();

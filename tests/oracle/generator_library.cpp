@@ -41,7 +41,30 @@ bool tells_kinds(const LibraryFunction& row) { return row.name.starts_with("math
 
 } // namespace
 
+/// A sum of a noise of the library, of a function of the program or of one written there.
+std::string Generator::sum_of_function(int depth) {
+  const std::string_view name =
+      random_.pick(std::vector<std::string_view>{"fbm", "turbulence", "ridged", "hybrid", "warp"});
+  const T point = random_.pick(std::vector<T>{T::N, T::V2, T::V3, T::V4});
+  static const std::vector<std::string> noises = {"noise", "perlin", "valuenoise", "cellnoise", "worley"};
+  std::string text = std::string(name) + "(";
+  text += random_.chance(0.5) ? random_.pick(noises) : function_argument({point, T::N}, depth - 1);
+  text += ", " + expression(point, depth - 1);
+  const int count = random_.between(0, name == "hybrid" || name == "warp" ? 6 : 5);
+  for (int i = 0; i < count; ++i) {
+    static const std::vector<std::string> octaves = {"1", "2", "1.5", "3"};
+    text += ", " + (i == 0                ? random_.pick(octaves)
+                    : random_.chance(0.7) ? number_literal()
+                                          : expression(T::N, depth - 1));
+  }
+  return text + ")";
+}
+
 std::string Generator::library(T type, int depth) {
+  if (type == T::N && depth > 0 && heavy_ < kMaxHeavy && random_.chance(0.04)) {
+    ++heavy_;
+    return sum_of_function(depth);
+  }
   static const Rows rows;
   const auto& fits = rows.by_result[static_cast<size_t>(type)];
   if (fits.empty()) return leaf(type, depth);

@@ -1,6 +1,7 @@
 """The command line of moonrender: exit statuses, messages, files. command_line.py MOONRENDER SCENES"""
 import json
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -69,8 +70,6 @@ with tempfile.TemporaryDirectory() as folder:
     run(bumpy, "-o", image, "--crop=0,0,4000,4000", status=2, error="--crop lies outside the image")
     run(bumpy, "-o", os.path.join(folder, "none/a.png"), status=3, error="No such file")
     run(bumpy, "-o", image, f"--stats={folder}/none/s.json", status=3, error="none/s.json: No such file")
-    for option in ("--cache-dir=x", "--no-cache", "--bake"):
-        run(bumpy, "-o", image, option, status=2, error="not available yet")
     check(os.listdir(folder) == [], f"files are left: {os.listdir(folder)}")
 
     # Scenes at fault.
@@ -105,6 +104,20 @@ with tempfile.TemporaryDirectory() as folder:
     run(bumpy, "-o", image, *small, "--threads=3", "--width=4")
     strip = lambda data: data[data.index(b"IDAT"):]  # the metadata hold the time
     check(strip(bytes_of(image)) == strip(shot), "threads and width change the picture")
+    # Compiled code may be kept, quick at first, or have its parameters baked in: the picture is the same.
+    cache = os.path.join(folder, "cache")
+    for how in ([f"--cache-dir={cache}"], [f"--cache-dir={cache}"], ["--no-cache"], ["--bake", "--no-cache"],
+                ["--cache-dir=/dev/null/none"]):
+        run(bumpy, "-o", image, *small, *how)
+        check(strip(bytes_of(image)) == strip(shot), f"{how} changes the picture")
+    check(len(os.listdir(cache)) > 0, "nothing is in the cache")
+    baked = ["-D", "bumpy.scale=5"]
+    run(bumpy, "-o", image, *small, *baked)
+    with_parameter = bytes_of(image)
+    run(bumpy, "-o", image, *small, "--bake", *baked)
+    check(strip(bytes_of(image)) == strip(with_parameter), "a baked parameter is another value")
+    check(strip(with_parameter) != strip(shot), "the parameter changes nothing")
+    shutil.rmtree(cache)
     run(bumpy, "-o", image, *small, "--seed=5")
     check(strip(bytes_of(image)) != strip(shot), "the seed changes nothing")
     link, pipe = os.path.join(folder, "link.png"), os.path.join(folder, "pipe")

@@ -14,6 +14,7 @@ config.test_source_root = os.path.dirname(__file__)
 config.test_exec_root = lit_config.params["out"]
 config.environment["PATH"] = bin_folder + os.pathsep + os.environ["PATH"]
 config.environment["NO_COLOR"] = "1"
+config.environment["XDG_CACHE_HOME"] = os.path.join(config.test_exec_root, "cache")
 config.substitutions += [
     ("%shaderc", os.path.join(bin_folder, "shaderc")),
     ("%moonbench", os.path.join(bin_folder, "moonbench")),

@@ -1,8 +1,10 @@
 // moonbench: for each shader and entry, stock Lua against compiled code over the same points.
+#include "tools/moonbench/compile_times.h"
 #include "tools/moonbench/measure.h"
 #include "tools/moonbench/report.h"
 #include "tools/support/exit_status.h"
 #include "tools/support/files.h"
+#include "tools/support/images.h"
 #include "tools/support/interrupt.h"
 
 #include <algorithm>
@@ -22,7 +24,8 @@ bool wanted(const Options& options, const std::string& entry) {
 }
 
 /// Adds the rows of one file's entries; gives the exit status.
-int measure_file(const std::string& path, const Options& options, std::vector<Row>& rows) {
+int measure_file(const std::string& path, Options options, std::vector<Row>& rows) {
+  options.images = images_of(path);
   FileText file = read_file(path);
   if (!file.error.empty()) return fail(kInputAtFault, "cannot read '" + path + "': " + file.error);
   const CheckedShader shader(path, std::move(file.text), {}, tools::modules_of(path));
@@ -58,6 +61,7 @@ int report_rows(const Options& options, const std::vector<Row>& rows) {
 }
 
 int work(const Options& options) {
+  if (options.compile_times) return report_compile_times(options);
   std::vector<Row> rows;
   int status = kDone;
   for (const std::string& file : options.files)

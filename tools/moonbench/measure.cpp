@@ -24,13 +24,6 @@ constexpr double kShortest = 0.02;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-/// Seconds that this thread has computed: what other programs take from it does not count.
-double thread_seconds() {
-  timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return double(time.tv_sec) + double(time.tv_nsec) * 1e-9;
-}
-
 /// One mode of one entry.
 struct Contestant {
   Row row;
@@ -92,6 +85,7 @@ Contestant compiled(const CheckedShader& shader, const std::string& entry, const
   compile_options.precision = options.precision;
   compile_options.width = width;
   compile_options.entries = {entry};
+  compile_options.images = options.images;
   const double start = thread_seconds();
   const Compilation compilation = compile(shader, compile_options);
   contestant.row.mode = width == 1 ? "scalar" : "simd";
@@ -166,6 +160,12 @@ void compare(const Contestant& lua, Contestant& other, Precision precision) {
 
 } // namespace
 
+double thread_seconds() {
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return double(time.tv_sec) + double(time.tv_nsec) * 1e-9;
+}
+
 Measurement measure(const CheckedShader& shader, size_t entry_index, const Options& options) {
   Measurement result;
   const std::string entry = shader.info().entries[entry_index].name;
@@ -176,7 +176,7 @@ Measurement measure(const CheckedShader& shader, size_t entry_index, const Optio
     return result.error.empty();
   };
   // With counted steps the points are known to end; the measured state then does without any guard.
-  Contestant reference = interpreted(shader, {.count_steps = true}, result.error);
+  Contestant reference = interpreted(shader, {.count_steps = true, .images = options.images}, result.error);
   if (!result.error.empty()) return result;
   reference.calls = 1;
   prepare(reference, entry, options);
@@ -185,11 +185,10 @@ Measurement measure(const CheckedShader& shader, size_t entry_index, const Optio
       if (reference.points->fault(row) == FaultCode::StepLimit) return false;
     return true;
   }();
-  const InterpretOptions plain{.count_steps = false, .step_limit = ends ? 0u : 1'000'000u};
+  const InterpretOptions plain{.count_steps = false, .step_limit = ends ? 0u : 1'000'000u, .images = options.images};
   if (!add(interpreted(shader, plain, result.error))) return result;
   if (!add(compiled(shader, entry, options, 1, result.error))) return result;
-  const unsigned width = options.width != 0 ? options.width : native_width(options.precision);
-  if (width != 1 && !add(compiled(shader, entry, options, width, result.error))) return result;
+  if (options.width != 1 && !add(compiled(shader, entry, options, options.width, result.error))) return result;
 
   for (unsigned repetition = 0; repetition < options.repetitions; ++repetition)
     for (Contestant& contestant : contestants)

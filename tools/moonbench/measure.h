@@ -27,4 +27,7 @@ struct Measurement {
 };
 Measurement measure(const CheckedShader& shader, size_t entry, const Options& options);
 
+/// Seconds that this thread has computed: what other programs take from it does not count.
+double thread_seconds();
+
 } // namespace moonshade::moonbench

@@ -79,6 +79,9 @@ ParsedOptions parse_options(int argc, char** argv) {
       ->option_text("auto|4|8|16|32")
       ->check(CLI::IsMember({"auto", "1", "4", "8", "16", "32"}))
       ->group("What to measure");
+  app.add_flag("--compile-times", options.compile_times,
+               "Instead: milliseconds to compile each entry, optimised, quickly, and from the object cache")
+      ->group("What to measure");
   app.add_flag("--json", options.json, "Print an array of objects instead of a table")->group("Reports");
   app.add_option("--plot", options.plot, "Draw a bar chart")->option_text("FILE.svg")->group("Reports");
   app.set_help_flag("-h,--help", "Print this help")->group("Reports");

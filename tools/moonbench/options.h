@@ -19,6 +19,8 @@ struct Options {
   unsigned repetitions = 5;
   std::string plot; ///< SVG file; empty: none
   bool json = false;
+  ImageOpener images; ///< of the file at work
+  bool compile_times = false;
 };
 
 struct ParsedOptions {

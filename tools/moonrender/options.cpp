@@ -5,7 +5,9 @@
 #include "renderer/film/image_file.h"
 #include "renderer/scene/nearest_name.h"
 #include "renderer/scene/scene_reference.h"
+#include "runtime/allowed_folders.h"
 #include "tools/support/arguments.h"
+#include "tools/support/cache_options.h"
 #include "tools/support/exit_status.h"
 
 #include <charconv>
@@ -31,8 +33,6 @@ constexpr const char* kExamples = R"(Examples:
 
 Exit status: 0 done, 1 the scene is at fault, 2 the call is, 3 the machine is, 130 interrupted (the picture then holds
 the passes done).)";
-
-constexpr const char* kNotYet[] = {"--cache-dir", "--no-cache", "--bake"};
 
 template <typename T> T number(std::string_view text, const char* what) {
   T value{};
@@ -66,6 +66,7 @@ struct Given {
   std::optional<int64_t> samples, seed, threads, depth;
   std::optional<double> time, exposure, clamp, noise, checkpoint, fps;
   std::vector<std::string> defines;
+  tools::CacheOptions cache;
 };
 
 std::string short_text(double value) {
@@ -106,6 +107,7 @@ void size_and_crop(const Given& given, Options& options) {
 void shader_options(const Given& given, Options& options) {
   static constexpr std::string_view kBackends[] = {"jit", "interp"};
   static constexpr std::string_view kPrecisions[] = {"f32", "f64"};
+  options.shaders.folders = {folder_of(options.scene)};
   if (!given.backend.empty())
     options.shaders.backend = renderer::Backend(one_of(given.backend, "--backend", kBackends));
   if (!given.precision.empty())
@@ -114,6 +116,13 @@ void shader_options(const Given& given, Options& options) {
   options.shaders.width = number<unsigned>(given.width, "--width");
   if (std::find(kWidths.begin(), kWidths.end(), options.shaders.width) == kWidths.end())
     throw UsageError("--width: expected auto, 1, 4, 8, 16 or 32");
+}
+
+/// Compiled shaders are kept, and optimised while rendering goes on already.
+void compilation(const Given& given, Options& options) {
+  if (options.shaders.backend != renderer::Backend::Jit) return;
+  options.shaders.cache = tools::open_cache(given.cache);
+  options.shaders.background = std::make_shared<BackgroundCompiler>();
 }
 
 void animation(const Given& given, Options& options) {
@@ -129,6 +138,7 @@ void animation(const Given& given, Options& options) {
 void convert(const Given& given, Options& options) {
   size_and_crop(given, options);
   shader_options(given, options);
+  compilation(given, options);
   animation(given, options);
   if (!given.integrator.empty())
     options.integrator = renderer::IntegratorKind(one_of(given.integrator, "--integrator", renderer::kIntegratorNames));
@@ -148,14 +158,6 @@ void convert(const Given& given, Options& options) {
   options.render.contents = renderer::contents_for(options.aovs);
   for (const std::string& text : given.defines)
     define(options, text);
-}
-
-void refuse_what_is_not_there(int argc, char** argv) {
-  for (int i = 1; i < argc && std::string_view(argv[i]) != "--"; ++i) {
-    std::string_view name = std::string_view(argv[i]).substr(0, std::string_view(argv[i]).find('='));
-    for (const char* option : kNotYet)
-      if (name == option) throw UsageError(std::string(option) + ": not available yet");
-  }
 }
 
 void check_image(const std::string& option, const std::string& name) {
@@ -225,7 +227,7 @@ void add_long_render_options(CLI::App& app, Options& options, Given& given) {
       ->group(group);
 }
 
-void add_shader_options(CLI::App& app, Given& given) {
+void add_shader_options(CLI::App& app, Options& options, Given& given) {
   const char* group = "Shaders";
   app.add_option("--backend", given.backend, "jit: compiled; interp: in stock Lua 5.4")
       ->option_text("jit|interp")
@@ -237,6 +239,8 @@ void add_shader_options(CLI::App& app, Given& given) {
       ->allow_extra_args(false)
       ->take_all()
       ->group(group);
+  app.add_flag("--bake", options.shaders.bake, "Compile parameters as constants")->group(group);
+  tools::add_cache_options(app, given.cache, group);
 }
 
 } // namespace
@@ -254,10 +258,9 @@ ParsedOptions parse_options(int argc, char** argv) {
   add_output_options(app, options, given);
   add_render_options(app, given);
   add_long_render_options(app, options, given);
-  add_shader_options(app, given);
+  add_shader_options(app, options, given);
   bool help_scene = false;
   app.add_flag("--help-scene", help_scene, "Print what a scene can say, as Markdown");
-  app.preparse_callback([&](size_t) { refuse_what_is_not_there(argc, argv); });
   app.parse_complete_callback([&] {
     if (help_scene) return;
     if (app.count("--tev") > 0) options.tev = given.tev == "true" ? "" : given.tev;

@@ -3,6 +3,7 @@
 
 #include "tools/support/exit_status.h"
 #include "tools/support/files.h"
+#include "tools/support/images.h"
 
 #include <nlohmann/json.hpp>
 
@@ -67,6 +68,8 @@ CheckedFile check_file(const std::string& path, const Options& options, Reporter
                     ? std::make_unique<CheckedShader>(CheckedShader::parsed(path, file.text))
                     : std::make_unique<CheckedShader>(path, file.text, options.compile.entries,
                                                       tools::modules_of(path, options.module_path));
+  if (!options.emit && !shader->info().images.empty())
+    shader->check_images(tools::images_of(path, options.module_path));
   const std::string missing_entry = only_missing_entry(shader->diagnostics());
   if (missing_entry.empty()) reporter.add(shader->diagnostics(), shader->sources());
   if (!missing_entry.empty()) return {nullptr, call_error("--entry: " + missing_entry)};
@@ -84,6 +87,8 @@ void print_times(const std::string& file, const CompileTimes& times) {
   const auto print = [&](const char* stage, double milliseconds) {
     if (milliseconds > 0) std::fprintf(stderr, "%s: %s %.3f ms\n", file.c_str(), stage, milliseconds);
   };
+  if (times.cached || times.cache > 0)
+    std::fprintf(stderr, "%s: cache %.3f ms (%s)\n", file.c_str(), times.cache, times.cached ? "hit" : "miss");
   print("parse", times.parse);
   print("sema", times.sema);
   print("ir", times.ir);

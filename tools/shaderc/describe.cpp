@@ -45,7 +45,12 @@ std::string describe(const std::string& file, const ShaderInfo& info) {
                {"entries", Json::array()},
                {"parameters", Json::array()},
                {"modules", info.modules},
-               {"images", info.images}};
+               {"images", Json::array()}};
+  for (const ImageInfo& image : info.images) {
+    Json described = {{"file", image.file}, {"raw", image.raw}};
+    if (image.parameter) described["parameter"] = info.parameters[*image.parameter].name;
+    json["images"].push_back(std::move(described));
+  }
   for (const EntryInfo& entry : info.entries)
     json["entries"].push_back(describe_entry(entry));
   for (const ParameterInfo& parameter : info.parameters)

@@ -2,6 +2,7 @@
 #include "compiler/sema/luals.h"
 #include "tools/shaderc/actions.h"
 #include "tools/shaderc/check.h"
+#include "tools/shaderc/parameters.h"
 #include "tools/support/exit_status.h"
 #include "tools/support/files.h"
 
@@ -26,7 +27,10 @@ int emit_luals(const Options& options) { return write_output(options, sema::lual
 
 int emit_stage(const CheckedShader& shader, const Options& options) {
   if (!shader.ok() && *options.emit != Stage::Ast) return tools::kInputAtFault;
-  const Emission emission = emit(shader, *options.emit, options.compile, options.prefix);
+  CompileOptions compile_options = options.compile;
+  if (options.compile.bake)
+    if (const auto status = read_parameters(shader.info(), options, compile_options.baked)) return *status;
+  const Emission emission = emit(shader, *options.emit, compile_options, options.prefix);
   if (!emission.error.empty()) return call_error(emission.error);
   if (options.time_report) print_times(options.files[0], emission.times);
   if (const int status = write_output(options, emission.bytes); status != tools::kDone) return status;

@@ -2,6 +2,7 @@
 #include "tools/shaderc/options.h"
 
 #include "tools/support/arguments.h"
+#include "tools/support/cache_options.h"
 #include "tools/support/exit_status.h"
 
 #include <cctype>
@@ -26,8 +27,7 @@ constexpr const char* kExamples = R"(Examples:
 /// Options as they stand on the command line, before they are judged.
 struct Raw {
   std::string emit, width = "auto", precision = "f32", diagnostics = "text", optimization = "2";
-  std::string cache_dir;
-  bool no_cache = false, bake = false;
+  CacheOptions cache;
 };
 
 void add_output_options(CLI::App& app, Options& options, Raw& raw) {
@@ -90,6 +90,9 @@ void add_compile_options(CLI::App& app, Options& options, Raw& raw) {
       ->option_text("0|1|2|3")
       ->check(CLI::IsMember({"0", "1", "2", "3"}))
       ->group(group);
+  app.add_flag("--bake", options.compile.bake, "Compile parameters as constants: those of -D, and defaults")
+      ->group(group);
+  add_cache_options(app, raw.cache, group);
 }
 
 void add_report_options(CLI::App& app, Options& options, Raw& raw) {
@@ -102,21 +105,6 @@ void add_report_options(CLI::App& app, Options& options, Raw& raw) {
                "What the compiler decided: width, varying branches and loops, gathers, calls, counted steps")
       ->group(group);
   app.add_flag("--time-report", options.time_report, "Print the time of each stage on standard error")->group(group);
-}
-
-/// What the contract names and is not built yet.
-void add_unavailable_options(CLI::App& app, Raw& raw) {
-  const char* group = "Not available yet";
-  app.add_option("--cache-dir", raw.cache_dir, "Folder of the object cache")->option_text("DIR")->group(group);
-  app.add_flag("--no-cache", raw.no_cache, "Do without the object cache")->group(group);
-  app.add_flag("--bake", raw.bake, "Compile parameters as constants")->group(group);
-}
-
-/// The first option of the call that is not built yet; empty where all are.
-std::string unavailable(const CLI::App& app) {
-  for (const char* name : {"--cache-dir", "--no-cache", "--bake"})
-    if (app.count(name) != 0) return name;
-  return "";
 }
 
 std::optional<Stage> stage_of(const std::string& name) {
@@ -167,8 +155,10 @@ std::string contradiction(const Options& options) {
   if (!options.run && !options.points.empty()) return "--points stands with --run";
   if (!options.run && options.interpret) return "--interpret stands with --run";
   if (options.run && options.compile.entries.size() > 1) return "--run takes one --entry";
-  if (!options.emit && !options.remarks && (options.compile.cpu != "native" || !options.compile.target.empty()))
-    return "--cpu and --target stand with --emit: code for other machines cannot run here";
+  if (!options.emit && !options.remarks && !options.run &&
+      (options.compile.cpu != "native" || !options.compile.target.empty()))
+    return "--cpu and --target stand with --emit, --remarks or --run";
+  if (options.compile.bake && !options.run && !options.emit) return "--bake stands with --run and --emit";
   for (const std::string& definition : options.definitions)
     if (split_assignment(definition).name.empty()) return "-D takes NAME=VALUE, not '" + definition + "'";
   for (const std::string& input : options.inputs)
@@ -192,6 +182,7 @@ void settle(Options& options, const Raw& raw) {
   options.diagnostics = format_of(raw.diagnostics);
   options.colour = colour_wanted();
   options.compile.color_diagnostics = options.colour;
+  if (options.run && !options.interpret) options.compile.cache = open_cache(raw.cache);
   move_inputs_from_files(options);
 }
 
@@ -219,13 +210,10 @@ ParsedOptions parse_options(int argc, char** argv) {
   add_run_options(app, options);
   add_compile_options(app, options, raw);
   add_report_options(app, options, raw);
-  add_unavailable_options(app, raw);
   app.set_help_flag("-h,--help", "Print this help")->group("Reports");
   app.set_version_flag("--version", version(), "Print the version")->group("Reports");
   app.footer(kExamples);
   if (const auto status = parse_arguments(app, argc, argv, "shaderc")) return {std::nullopt, *status};
-  if (const std::string name = unavailable(app); !name.empty())
-    return {std::nullopt, call_error(name + " is not available yet")};
   settle(options, raw);
   if (const std::string problem = contradiction(options); !problem.empty()) return {std::nullopt, call_error(problem)};
   return {std::move(options), kDone};

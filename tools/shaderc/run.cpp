@@ -2,14 +2,17 @@
 #include "runtime/interpret.h"
 #include "tools/shaderc/actions.h"
 #include "tools/shaderc/check.h"
+#include "tools/shaderc/parameters.h"
 #include "tools/support/csv.h"
 #include "tools/support/exit_status.h"
+#include "tools/support/images.h"
 #include "tools/support/points.h"
 #include "tools/support/values.h"
 
 #include <algorithm>
 #include <cstdio>
 #include <iostream>
+#include <utility>
 
 namespace moonshade::shaderc {
 
@@ -25,19 +28,6 @@ using Ending = std::optional<int>;
 int machine_error(const std::string& message) {
   std::cerr << "shaderc: error: " << message << "\n";
   return kMachineAtFault;
-}
-
-std::string quoted_list(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names)
-    text += (text.empty() ? "'" : ", '") + name + "'";
-  return text.empty() ? "none" : text;
-}
-
-template <class Named> std::vector<std::string> names_of(const std::vector<Named>& things) {
-  std::vector<std::string> names(things.size());
-  std::transform(things.begin(), things.end(), names.begin(), [](const Named& thing) { return thing.name; });
-  return names;
 }
 
 // ---- the shader ----------------------------------------------------------------------------------------------------
@@ -58,21 +48,6 @@ Ending find_entry(const ShaderInfo& info, const Options& options, size_t& index)
   return std::nullopt;
 }
 
-Ending read_parameters(const ShaderInfo& info, const Options& options, std::map<std::string, Constant>& parameters) {
-  for (const std::string& definition : options.definitions) {
-    const Assignment assignment = split_assignment(definition);
-    const auto parameter = std::find_if(info.parameters.begin(), info.parameters.end(),
-                                        [&](const ParameterInfo& p) { return p.name == assignment.name; });
-    if (parameter == info.parameters.end())
-      return call_error("-D: the shader has no parameter '" + std::string(assignment.name) + "'; there are " +
-                        quoted_list(names_of(info.parameters)));
-    CheckedConstant checked = parse_override(*parameter, assignment.value);
-    if (!checked.error.empty()) return call_error("-D: " + checked.error);
-    parameters[parameter->name] = std::move(checked.value);
-  }
-  return std::nullopt;
-}
-
 /// "FILE:LINE:COLUMN: message" in the form of a diagnostic; other errors as the program's own.
 std::string as_diagnostic(const std::string& error, const CheckedShader& checked) {
   const std::string file = std::string(checked.sources().name(0)) + ":";
@@ -85,12 +60,17 @@ std::string as_diagnostic(const std::string& error, const CheckedShader& checked
 Ending instantiate(const CheckedShader& checked, const Options& options, std::shared_ptr<const Shader>& shader) {
   std::map<std::string, Constant> parameters;
   if (const Ending ending = read_parameters(checked.info(), options, parameters)) return ending;
+  const ImageOpener images = tools::images_of(options.files[0], options.module_path);
   Instantiation instance;
   if (options.interpret) {
     if (options.time_report) print_times(options.files[0], checked.times());
-    instance = interpret(checked, parameters, {.count_steps = true, .step_limit = options.compile.step_limit});
+    instance = interpret(checked, parameters,
+                         {.count_steps = true, .step_limit = options.compile.step_limit, .images = images});
   } else {
-    const Compilation compilation = compile(checked, options.compile);
+    CompileOptions compile_options = options.compile;
+    compile_options.images = images;
+    if (options.compile.bake) compile_options.baked = std::exchange(parameters, {});
+    const Compilation compilation = compile(checked, compile_options);
     if (!compilation.program) return machine_error("the checked shader cannot be compiled\n" + compilation.diagnostics);
     if (options.time_report) print_times(options.files[0], compilation.program->times());
     instance = compilation.program->instantiate(parameters);

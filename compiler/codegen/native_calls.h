@@ -1,0 +1,22 @@
+// Calls of the library's machine code (native_library.h) in place of its bitcode. A call goes by the export's own
+// convention, through pointers; what it costs is that and registers kept in memory meanwhile, a few nanoseconds for a
+// block of lanes.
+#pragma once
+
+#include "compiler/codegen/codegen.h"
+#include "compiler/codegen/lanes.h"
+#include "compiler/codegen/target.h"
+
+#include <llvm/IR/Module.h>
+
+#include <string>
+
+namespace moonshade::codegen {
+
+/// Renames the declarations of exports that are to be called, so that the library's bitcode does not define them.
+void choose_native_calls(llvm::Module& module, const Domain& domain, const Target& target, LibraryCalls calls);
+
+/// Where the function of such a name lies; null where there is none.
+const void* native_call_address(const std::string& name);
+
+} // namespace moonshade::codegen

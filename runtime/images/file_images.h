@@ -1,0 +1,18 @@
+// Images from files, looked up by OpenImageIO's texture system: an ImageOpener (runtime/image.h).
+#pragma once
+
+#include "runtime/allowed_folders.h"
+#include "runtime/image.h"
+
+namespace moonshade {
+
+/// Opens PNG, JPEG, OpenEXR, TIFF, Radiance, Targa and BMP files that lie in these folders. A file is read whole when
+/// it is opened, so that whatever is wrong with it shows then, and what becomes of it afterwards does not.
+///
+/// A look-up repeats the image endlessly, v upwards. Without a width it interpolates between the four texels around the
+/// point; with one it does so in two levels of a pyramid of means, between which it interpolates (trilinear). Of more
+/// than four channels the first four count, one or three have alpha 1, one or two are grey; alpha is not multiplied in.
+/// Numbers that are not finite count as 0.
+ImageOpener file_images(AllowedFolders folders);
+
+} // namespace moonshade

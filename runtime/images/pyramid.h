@@ -1,0 +1,41 @@
+// An image in memory: as its file has it, and ever coarser levels of it, down to one texel.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace moonshade {
+
+/// Red, green, blue, alpha.
+using Texel = std::array<float, 4>;
+
+class Pyramid {
+public:
+  /// Reads a file whole; gives the error. `raw`: 8-bit numbers are not decoded from sRGB.
+  std::string read(const std::string& path, bool raw);
+
+  int levels() const { return static_cast<int>(sizes_.size()); }
+  int width(int level) const { return sizes_[static_cast<size_t>(level)].width; }
+  int height(int level) const { return sizes_[static_cast<size_t>(level)].height; }
+  /// Rows go downwards.
+  Texel texel(int level, int x, int y) const;
+
+private:
+  struct Size {
+    int width, height;
+  };
+  void make_levels();
+  Texel expand(const std::array<float, 4>& channels) const;
+
+  std::vector<Size> sizes_;
+  // The finest level is kept in its file's form.
+  int channels_ = 0;
+  std::vector<uint8_t> bytes_; ///< of 8-bit files; else
+  std::vector<float> numbers_;
+  std::array<float, 256> colours_{}, numbers_of_bytes_{}; ///< a byte as a colour's component, and as alpha
+  std::vector<std::vector<Texel>> coarse_;                ///< the levels from the second on
+};
+
+} // namespace moonshade

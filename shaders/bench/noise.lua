@@ -1,0 +1,4 @@
+-- noise.lua: simplex noise, once
+function height(p)
+  return noise(p)
+end

@@ -1,0 +1,4 @@
+-- perlin.lua: improved Perlin noise, once
+function height(p)
+  return perlin(p)
+end
