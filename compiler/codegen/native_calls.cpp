@@ -74,8 +74,8 @@ void choose_native_calls(llvm::Module& module, const Domain& domain, const Targe
   // Look-ups in registers are twice as fast as machine code that gathers.
   const bool keeps_tables = calls == LibraryCalls::Large && has_tables(target);
   for (llvm::Function& function : module)
-    if (const NativeExport* code = native.find(function); code != nullptr && code->instructions > kSmall &&
-                                                          !(keeps_tables && code->asks_for_tables != 0)) {
+    if (const NativeExport* code = native.find(function);
+        code != nullptr && code->instructions > kSmall && !(keeps_tables && code->asks_for_tables != 0)) {
       large.push_back(&function);
       sum += code->instructions;
     }
