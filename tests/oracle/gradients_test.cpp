@@ -154,9 +154,10 @@ std::vector<size_t> directions_of(const EntryInfo& info) {
   return directions;
 }
 
-/// How many derivatives were compared with differences, and how many of them are not finite.
+/// How many derivatives were compared with differences, how many of them are not finite, and of how many differences
+/// say nothing: the function changes by far more than its own size over the step.
 struct Compared {
-  size_t all = 0, infinite = 0;
+  size_t all = 0, infinite = 0, steep = 0;
 };
 
 Compared expect_limits(const Probe& probe, const std::vector<Column>& inputs, uint64_t seed) {
@@ -197,6 +198,12 @@ Compared expect_limits(const Probe& probe, const std::vector<Column>& inputs, ui
           ++compared.infinite;
           continue;
         }
+        // Where coordinates have no fraction left, noise gives the lattice's value for all neighbours, but has the
+        // slope that it has there.
+        if (std::abs(derivative) > 1e15) {
+          ++compared.steep;
+          continue;
+        }
         EXPECT_NEAR(derivative, narrow, 1e-4 * scale)
             << "seed " << seed << " result " << row << " direction " << k << " point " << i;
       }
@@ -220,12 +227,14 @@ TEST(GeneratedGradients, AreTheFunctionsOwnAndTheSameEverywhere) {
         const Compared more = expect_limits(narrow, inputs, seed);
         compared.all += more.all;
         compared.infinite += more.infinite;
+        compared.steep += more.steep;
       }
       if (HasFailure()) return;
     }
   EXPECT_GT(programs, kPrograms);
   EXPECT_GT(compared.all, 10000u);
-  EXPECT_LT(compared.infinite, compared.all / 400); // logarithms to base 1, and the like
+  EXPECT_LT(compared.infinite, compared.all / 400);
+  EXPECT_LT(compared.steep, compared.all / 100);
 }
 
 } // namespace
