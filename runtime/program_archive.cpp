@@ -65,9 +65,10 @@ template <class A> void fields(A& archive, PrintPlaceInfo& value) {
   archive(text, types);
 }
 template <class A> void fields(A& archive, CodeInfo& value) {
-  auto& [precision, width, entries, init_symbol, global_offsets, constants_size, places, prints, print_slot, image_slot] =
-      value;
-  archive(precision, width, entries, init_symbol, global_offsets, constants_size, places, prints, print_slot, image_slot);
+  auto& [precision, width, entries, init_symbol, global_offsets, constants_size, places, prints, print_slot,
+         image_slot] = value;
+  archive(precision, width, entries, init_symbol, global_offsets, constants_size, places, prints, print_slot,
+          image_slot);
 }
 
 } // namespace codegen

@@ -15,7 +15,8 @@ struct NativeExport {
   const char* name; ///< as in the bitcode
   const void* address;
   uint32_t instructions; ///< in the bitcode
-  uint32_t has_loop;     ///< 0 or 1
+  /// 0 or 1: it gathers from memory here, where bitcode on a processor with tables in registers looks up there.
+  uint32_t asks_for_tables;
 };
 /// The machine code of a domain's exports, and the processor that it takes ("x86-64-v4", a name of LLVM's; empty: any
 /// of this architecture): what is slow to compile with a shader and loses little by a call, shaders may call here.

@@ -159,7 +159,8 @@ template <class L> MS_INLINE Cell<L> dots(Vec<2, L> p, L width, L radius) {
     DiscSegment<L> low = disc_segment(y - reach, solid), high = disc_segment(y + reach, solid);
     L sum = (disc_integral(right, high, solid) - disc_integral(left, high, solid)) -
             (disc_integral(right, low, solid) - disc_integral(left, low, solid));
-    value = select(wide, mix(value, sum / (constant<L>(4) * reach * reach), blend), value);
+    L seen = select(less_equal(radius, zero), zero, sum / (constant<L>(4) * reach * reach));
+    value = select(wide, mix(value, seen, blend), value);
   }
   return {value, hash(cell), edge};
 }

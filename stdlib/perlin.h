@@ -104,7 +104,8 @@ template <class L> MS_INLINE L perlin_product(UInt32<L> hash, L x, L y, L z) {
   return madd(a, x, madd(b, y, c * z));
 }
 
-template <class L> MS_INLINE L perlin_by_tables(UInt32<L> cx, UInt32<L> cy, UInt32<L> cz, Vec<3, L> d, Vec<3, L> fades) {
+template <class L>
+MS_INLINE L perlin_by_tables(UInt32<L> cx, UInt32<L> cy, UInt32<L> cz, Vec<3, L> d, Vec<3, L> fades) {
   using U = UInt32<L>;
   L x = d[0], y = d[1], z = d[2], one = constant<L>(1), u = fades[0], v = fades[1];
   L x1 = x - one, y1 = y - one, z1 = z - one;
@@ -113,9 +114,9 @@ template <class L> MS_INLINE L perlin_by_tables(UInt32<L> cx, UInt32<L> cy, UInt
   U ab = table_of_256(kPerlinTable.entry, add_bytes(a, add_bytes(fourfold(cy), U(0x01000100u))));
   U at = add_bytes(ab, fourfold(cz));
   const auto side = [&](U hash, L z) __attribute__((always_inline)) {
-    return perlin_lerp(v,
-                       perlin_lerp(u, perlin_product(hash, x, y, z), perlin_product(hash >> U(16u), x1, y, z)),
-                       perlin_lerp(u, perlin_product(hash >> U(8u), x, y1, z), perlin_product(hash >> U(24u), x1, y1, z)));
+    return perlin_lerp(
+        v, perlin_lerp(u, perlin_product(hash, x, y, z), perlin_product(hash >> U(16u), x1, y, z)),
+        perlin_lerp(u, perlin_product(hash >> U(8u), x, y1, z), perlin_product(hash >> U(24u), x1, y1, z)));
   };
   L near = side(table_of_256(kPerlinTable.entry, at), z);
   L far = side(table_of_256(kPerlinTable.entry, add_bytes(at, U(0x01010101u))), z1);

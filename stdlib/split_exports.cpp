@@ -7,11 +7,9 @@
 //         moonshade_native_NAME.
 //     ms_split_exports small LIMIT IN.bc OUT.bc
 //         the exports of at most LIMIT instructions alone, bitcode that is read in a fraction of the time.
-#include <llvm/Analysis/LoopInfo.h>
 #include <llvm/Bitcode/BitcodeWriter.h>
 #include <llvm/IR/Constants.h>
-#include <llvm/IR/Dominators.h>
-#include <llvm/IR/IRBuilder.h>
+#include <llvm/IR/Instructions.h>
 #include <llvm/IR/Module.h>
 #include <llvm/IRReader/IRReader.h>
 #include <llvm/Passes/PassBuilder.h>
@@ -25,20 +23,25 @@
 
 namespace {
 
-bool has_loop(llvm::Function& function) {
-  const llvm::DominatorTree tree(function);
-  const llvm::LoopInfo loops(tree);
-  return !loops.empty();
+/// Whether it asks for tables in registers (gather.ll.in), which only the code generator can give it.
+bool asks_for_tables(const llvm::Function& function) {
+  for (const llvm::BasicBlock& block : function)
+    for (const llvm::Instruction& instruction : block)
+      if (const auto* call = llvm::dyn_cast<llvm::CallInst>(&instruction);
+          call != nullptr && call->getCalledFunction() != nullptr &&
+          call->getCalledFunction()->getName() == "moonshade_target_has_tables")
+        return true;
+  return false;
 }
 
-/// { const char* name; void* address; uint32_t instructions; uint32_t has_loop; }, as in native_library.h.
+/// { const char* name; void* address; uint32_t instructions; uint32_t asks_for_tables; }, as in native_library.h.
 llvm::Constant* row(llvm::Module& module, llvm::StructType* type, llvm::Function& function) {
   llvm::LLVMContext& context = module.getContext();
   llvm::Constant* text = llvm::ConstantDataArray::getString(context, function.getName());
   auto* name = new llvm::GlobalVariable(module, text->getType(), true, llvm::GlobalValue::PrivateLinkage, text);
   llvm::Type* i32 = llvm::Type::getInt32Ty(context);
   return llvm::ConstantStruct::get(type, {name, &function, llvm::ConstantInt::get(i32, function.getInstructionCount()),
-                                          llvm::ConstantInt::get(i32, has_loop(function) ? 1 : 0)});
+                                          llvm::ConstantInt::get(i32, asks_for_tables(function) ? 1 : 0)});
 }
 
 void make_table(llvm::Module& module, const std::string& name) {

@@ -13,8 +13,7 @@ namespace moonshade::stdlib {
 
 /// Lanes that fill such registers.
 template <class L> inline constexpr bool has_tables = false;
-template <PlainLane L>
-inline constexpr bool has_tables<L> = is_f32<L> && (width_of<L> == 16 || width_of<L> == 32);
+template <PlainLane L> inline constexpr bool has_tables<L> = is_f32<L> && (width_of<L> == 16 || width_of<L> == 32);
 
 extern "C" {
 bool moonshade_target_has_tables();

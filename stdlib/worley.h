@@ -6,9 +6,9 @@
 // these: below 1.5, below 3, above). F1 and F2 are continuous, with kinks where the nearest point changes.
 //
 // The search: the 3^N cells around the point in rows along x, leaving out rows that are further away than F2 (F1, where
-// nobody asks for F2) on every lane; then, where F2 reaches beyond those cells, the next layer around them, with which Euclidean and Chebyshev
-// distances are exact (Manhattan's are but for a chance below 1e-7). Ranges in N dimensions: F1 in 0..sqrt(N), N, 1 for
-// the three metrics; the id does not depend on the metric's search order.
+// nobody asks for F2) on every lane; then, where F2 reaches beyond those cells, the next layer around them, with which
+// Euclidean and Chebyshev distances are exact (Manhattan's are but for a chance below 1e-7). Ranges in N dimensions: F1
+// in 0..sqrt(N), N, 1 for the three metrics; the id does not depend on the metric's search order.
 //
 // Coordinates to about 2^22 (float) or 2^50 (double) have their own cells. NaN and infinity give NaN.
 #pragma once

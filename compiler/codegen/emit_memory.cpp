@@ -120,7 +120,8 @@ void FunctionEmitter::store_element(const Slot& slot, const Lanes& index, const 
     }
     llvm::Type* type = element_type(slot);
     llvm::Value* address = builder.CreateInBoundsGEP(type, slot.parts[c], clamped);
-    if (slot.varying && !masks.plain_store(slot.home, slot.last_loop)) part = masks.blend(part, builder.CreateLoad(type, address));
+    if (slot.varying && !masks.plain_store(slot.home, slot.last_loop))
+      part = masks.blend(part, builder.CreateLoad(type, address));
     builder.CreateStore(part, address);
   }
 }

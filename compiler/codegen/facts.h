@@ -17,8 +17,8 @@ struct FunctionFacts {
   TargetFacts function;
   /// By VariableId; null: a capture, or never accessed.
   std::vector<const ir::Block*> homes;
-  /// By VariableId: a loop that holds all reads of the variable and that lanes enter once in the life of its home, so that
-  /// lanes which have left it never read the variable again; kNone: there is none.
+  /// By VariableId: a loop that holds all reads of the variable and that lanes enter once in the life of its home, so
+  /// that lanes which have left it never read the variable again; kNone: there is none.
   std::vector<ir::LabelId> last_loops;
   /// By VariableId: an integer that 32 bits hold.
   std::vector<bool> narrow;

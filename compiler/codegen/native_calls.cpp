@@ -1,6 +1,7 @@
 // Chooses by size (native_calls.h).
 #include "compiler/codegen/native_calls.h"
 
+#include "compiler/codegen/tables.h"
 #include "stdlib/native_library.h"
 
 #include <llvm/IR/Function.h>
@@ -70,8 +71,11 @@ void choose_native_calls(llvm::Module& module, const Domain& domain, const Targe
   const CodeThatRuns native(domain, target);
   std::vector<llvm::Function*> large;
   size_t sum = 0;
+  // Look-ups in registers are twice as fast as machine code that gathers.
+  const bool keeps_tables = calls == LibraryCalls::Large && has_tables(target);
   for (llvm::Function& function : module)
-    if (const NativeExport* code = native.find(function); code != nullptr && code->instructions > kSmall) {
+    if (const NativeExport* code = native.find(function);
+        code != nullptr && code->instructions > kSmall && !(keeps_tables && code->asks_for_tables != 0)) {
       large.push_back(&function);
       sum += code->instructions;
     }

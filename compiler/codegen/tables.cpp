@@ -22,13 +22,12 @@ llvm::BasicBlock* empty(llvm::Function& function) {
 }
 
 llvm::Value* load(Builder& builder, llvm::Type* type, llvm::Value* from, unsigned index) {
-  return builder.CreateAlignedLoad(type, builder.CreateConstInBoundsGEP1_64(builder.getInt8Ty(), from, index * kRegister),
-                                   llvm::Align(1));
+  return builder.CreateAlignedLoad(
+      type, builder.CreateConstInBoundsGEP1_64(builder.getInt8Ty(), from, index * kRegister), llvm::Align(1));
 }
 
 /// result[i] = look_up(indices[i]) for each register of `lanes` lanes of 4 bytes.
-template <class LookUp>
-void define(llvm::Function& function, unsigned lanes, llvm::Type* element, LookUp look_up) {
+template <class LookUp> void define(llvm::Function& function, unsigned lanes, llvm::Type* element, LookUp look_up) {
   Builder builder(empty(function));
   llvm::Type* bytes = llvm::FixedVectorType::get(element, kRegister * 8 / element->getScalarSizeInBits());
   for (unsigned i = 0; i < lanes * 4 / kRegister; ++i) {
@@ -64,10 +63,13 @@ void define_16(llvm::Function& function, unsigned lanes) {
 
 } // namespace
 
+bool has_tables(const Target& target) {
+  return target.vector_bits == 512 && target.machine->getMCSubtargetInfo()->checkFeatures("+avx512vbmi");
+}
+
 void define_tables(llvm::Module& module, const Target& target) {
   llvm::Function* question = module.getFunction("moonshade_target_has_tables");
-  const llvm::MCSubtargetInfo& processor = *target.machine->getMCSubtargetInfo();
-  if (question == nullptr || target.vector_bits != 512 || !processor.checkFeatures("+avx512vbmi")) return;
+  if (question == nullptr || !has_tables(target)) return;
   {
     Builder builder(empty(*question));
     builder.CreateRet(builder.getTrue());

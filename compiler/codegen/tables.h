@@ -8,6 +8,9 @@
 
 namespace moonshade::codegen {
 
+/// Whether the processor has them.
+bool has_tables(const Target& target);
+
 /// For a module that the library is linked into: gives the weak functions of stdlib/gather.ll.in their bodies.
 void define_tables(llvm::Module& module, const Target& target);
 

@@ -91,12 +91,15 @@ private:
     if (tangent == kNone || is_one(factor)) return tangent;
     return is_one(tangent) ? factor : b_->binary(Op::Mul, factor, tangent);
   }
-  /// The slope of a function of the library times what its argument has: 0 where the function does not change, also
-  /// where the argument's derivative is infinite or none. `flat` keeps the comparison for other directions.
-  ValueId slope_product(ValueId slope, ValueId tangent, ValueId& flat) {
-    if (tangent == kNone || is_one(slope) || is_one(tangent)) return product(slope, tangent);
+  /// The slope of a function of the library times what its argument has. Functions of numbers (min, clamp, smoothstep)
+  /// are flat over ranges, where the argument's derivative may be infinite or none: 0 there. Anywhere else the product
+  /// itself, whose own derivative counts too; noise and patterns, flat at single points, are spared the comparisons.
+  /// `flat` keeps the comparison for other directions.
+  ValueId slope_product(const LibraryFunction& row, ValueId slope, ValueId tangent, ValueId& flat) {
+    const ValueId made = product(slope, tangent);
+    if (!row.componentwise || tangent == kNone || is_one(slope) || is_one(tangent)) return made;
     if (flat == kNone) flat = b_->compare(Op::Eq, slope, b_->number(0));
-    return b_->select(flat, b_->number(0), product(slope, tangent));
+    return b_->select(b_->compare(Op::Eq, made, made), made, b_->select(flat, b_->number(0), made));
   }
   ValueId sum(ValueId a, ValueId b) { return a == kNone ? b : b == kNone ? a : b_->binary(Op::Add, a, b); }
   ValueId difference(ValueId a, ValueId b) {
@@ -450,7 +453,7 @@ ValueId Writer::differentiate_call(const LibraryFunction& row, unsigned paramete
             if (slope == kNone) slope = b_->result(made, row.result_count + index, row.results[n]);
             if (slope_component == kNone) slope_component = component(slope, r);
             set(results[n], r, k,
-                sum(at(results[n], r, k), slope_product(slope_component, at(tangents[i], c, k), flat)));
+                sum(at(results[n], r, k), slope_product(row, slope_component, at(tangents[i], c, k), flat)));
           }
         }
       }
@@ -527,7 +530,7 @@ void Writer::derivative_call(ValueId id) {
           ValueId flat = kNone;
           for (unsigned k = 0; k < kMaxDirections; ++k)
             set(results[index], r, k,
-                sum(at(results[index], r, k), slope_product(slope, tangent(operand, c, k), flat)));
+                sum(at(results[index], r, k), slope_product(*call.first->row, slope, tangent(operand, c, k), flat)));
         }
       }
   }

@@ -77,8 +77,18 @@ function f'(a: number, b: number) -> number, number, number {
   %3: number = call_library sin__d(%2)
   %4: number = result 1, %3
   %5: number = mul %4, %1
-  %6: number = mul %4, %0
-  return %3, %5, %6
+  %6: number = const.n 0
+  %7: boolean = eq %4, %6
+  %8: boolean = eq %5, %5
+  %9: number = const.n 0
+  %10: number = select %7, %9, %5
+  %11: number = select %8, %5, %10
+  %12: number = mul %4, %0
+  %13: boolean = eq %12, %12
+  %14: number = const.n 0
+  %15: number = select %7, %14, %12
+  %16: number = select %13, %12, %15
+  return %3, %11, %16
 }
 )");
 }

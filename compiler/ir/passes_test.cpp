@@ -57,6 +57,26 @@ TEST(SplitCounters, GivesTheLoopACounterOfItsOwn) {
                     b.return_values({b.load(n)});
                   }),
             R"(
+function f(a: boolean) -> integer {
+  var $0.n: integer
+  var $1.n: integer
+  %0: integer = const.i 0
+  store $0.n, %0
+  store $1.n, %0
+  loop #0 {
+    %1: boolean = argument 0
+    if %1 {
+      break #0
+    }
+    %2: integer = load $1.n
+    %3: integer = const.i 2
+    %4: integer = add %2, %3
+    store $0.n, %4
+    store $1.n, %4
+  }
+  %5: integer = load $0.n
+  return %5
+}
 )");
 }
 

@@ -37,12 +37,14 @@ template <class Number> void keep_results(Contestant& contestant, std::shared_pt
 }
 
 /// Shaders, interpreted or compiled, over the grid's points as they take them.
-template <class Number> Contestant of_shader(std::shared_ptr<const Shader> shader, const Workload& workload,
-                                             const std::array<std::vector<Number>, 3>& points) {
+template <class Number>
+Contestant of_shader(std::shared_ptr<const Shader> shader, const Workload& workload,
+                     const std::array<std::vector<Number>, 3>& points) {
   Contestant contestant;
   contestant.width = shader->width();
   const std::vector<EntryInfo>& entries = shader->info().entries;
-  const auto entry = static_cast<size_t>(std::ranges::find(entries, workload.entry, &EntryInfo::name) - entries.begin());
+  const auto entry =
+      static_cast<size_t>(std::ranges::find(entries, workload.entry, &EntryInfo::name) - entries.begin());
   auto results = std::make_shared<Columns<Number>>(workload.outputs);
   contestant.run = [shader = std::move(shader), entry, results, &points](size_t begin, size_t to) {
     const void* inputs[] = {points[0].data() + begin, points[1].data() + begin, points[2].data() + begin};

@@ -116,8 +116,7 @@ std::string text_table(const std::vector<Result>& results, const Summary& summar
       out += format("    %-17s %9s Mpoints/s  +-%4.1f %%  max diff %-8.2g %s%s%s\n", c.name.c_str(),
                     speed(c.mpoints()).c_str(), c.spread() * 100, c.max_difference,
                     c.compile_ms > 0 ? format("compiled in %.1f ms ", c.compile_ms).c_str() : "",
-                    c.chosen ? "<- chosen " : "",
-                    c.agrees ? "" : format("DIFFERS at %zu points", c.differing).c_str());
+                    c.chosen ? "<- chosen " : "", c.agrees ? "" : format("DIFFERS at %zu points", c.differing).c_str());
   }
   out += "\nthe chosen width against:\n";
   for (const Ratio& ratio : kRatios) {
@@ -133,8 +132,9 @@ std::string text_table(const std::vector<Result>& results, const Summary& summar
 }
 
 std::string markdown(const std::vector<Result>& results, const Summary& summary) {
-  std::string out = summary.machine + format(". %u repetitions of at least %g s by turns, medians; one thread, f32.\n\n",
-                                             summary.repetitions, summary.seconds);
+  std::string out =
+      summary.machine + format(". %u repetitions of at least %g s by turns, medians; one thread, f32.\n\n",
+                               summary.repetitions, summary.seconds);
   out += "Million points a second:\n\n| implementation |";
   std::string rule = "|---|";
   for (const Result& result : results) {

@@ -14,8 +14,8 @@ struct Workload {
   const char* entry;
   const char* title;
   unsigned outputs;
-  /// From stock Lua's, results may differ by more than `tolerance` max(1, |x|) at this share of the points: edges fall on
-  /// either side, and what is chaotic differs altogether.
+  /// From stock Lua's, results may differ by more than `tolerance` max(1, |x|) at this share of the points: edges fall
+  /// on either side, and what is chaotic differs altogether.
   double tolerance;
   double share = 1e-3;
 };

@@ -63,10 +63,10 @@ function skipped(p)
   if p.x < 0 then n = 5 else n = -5 end
   local turns = 0
   for k = 1, 20 do
-    if p.y * k > 3 then goto continue end
-    n = n + 2
-    turns = k
-    ::continue::
+    if p.y * k <= 3 then
+      n = n + 2
+      turns = k
+    end
     if n > 9 + p.z then return n, turns end
   end
   return -n, turns

@@ -67,10 +67,10 @@ template <int N> HAND CornerHashes<N> corner_hashes(U<N> x, U<N> y, U<N> z) {
 #ifdef __AVX512VBMI__
 /// The permutation at each byte, from four registers.
 HAND __m512i permuted(__m512i index) {
-  const __m512i low = _mm512_permutex2var_epi8(_mm512_loadu_si512(kPermutation), index,
-                                               _mm512_loadu_si512(kPermutation + 64));
-  const __m512i high = _mm512_permutex2var_epi8(_mm512_loadu_si512(kPermutation + 128), index,
-                                                _mm512_loadu_si512(kPermutation + 192));
+  const __m512i low =
+      _mm512_permutex2var_epi8(_mm512_loadu_si512(kPermutation), index, _mm512_loadu_si512(kPermutation + 64));
+  const __m512i high =
+      _mm512_permutex2var_epi8(_mm512_loadu_si512(kPermutation + 128), index, _mm512_loadu_si512(kPermutation + 192));
   return _mm512_mask_blend_epi8(_mm512_movepi8_mask(index), low, high);
 }
 /// Copies of the lowest byte.

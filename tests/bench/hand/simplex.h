@@ -7,9 +7,7 @@
 namespace hand {
 
 /// A lattice coordinate's bits, as the addition of a great number leaves them.
-template <int N> HAND U<N> lattice(F<N> i) {
-  return bits<U<N>>(i + 12582912.0f);
-}
+template <int N> HAND U<N> lattice(F<N> i) { return bits<U<N>>(i + 12582912.0f); }
 
 /// 1/2 less the square of the way. (Left to itself, -ffast-math adds the half last.)
 template <int N> HAND F<N> reach(F<N> x, F<N> y, F<N> z) {
@@ -56,8 +54,7 @@ template <int N> struct Simplex {
       second_sign = choose<N>(mask<N>((hash & 0x00400000u) != 0u), U<N>(0x80000000u), U<N>(0u));
     }
     HAND F<N> along(F<N> x, F<N> y, F<N> z) const {
-      return flip<N>(choose<N>(first_is_y, y, x), first_sign) +
-             flip<N>(choose<N>(second_is_z, z, y), second_sign);
+      return flip<N>(choose<N>(first_is_y, y, x), first_sign) + flip<N>(choose<N>(second_is_z, z, y), second_sign);
     }
   };
 

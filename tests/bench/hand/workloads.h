@@ -34,8 +34,7 @@ template <int N> struct Workloads {
     return sum;
   }
   template <class Noise> HAND static Vec3<N> marble_of(Vec3<N> p, Noise noise) {
-    const F<N> bend =
-        octaves(p, 6, [&](Vec3<N> q) __attribute__((always_inline)) { return magnitude(noise(q)); });
+    const F<N> bend = octaves(p, 6, [&](Vec3<N> q) __attribute__((always_inline)) { return magnitude(noise(q)); });
     return mix<N>({0.28f, 0.30f, 0.34f}, {0.90f, 0.88f, 0.84f}, 0.5f + 0.5f * sine<N>(2.0f * p.x + 5.0f * bend));
   }
   HAND static F<N> height(Vec3<N> p) {
@@ -68,10 +67,10 @@ template <int N> struct Workloads {
         return mix<1>({0.24f, 0.19f, 0.15f}, {0.90f, 0.92f, 0.95f}, least(4 * (h - 0.4f), one));
       } else {
         const auto sea = h < 0.0f, land = h < 0.4f;
-        const F<N> t = choose(sea, least<F<N>>(-2.0f * h, one),
-                              choose(land, F<N>(2.5f * h), least<F<N>>(4.0f * (h - 0.4f), one)));
-        const auto blend = [&](float deep, float shallow, float grass, float rock, float snow)
-                               __attribute__((always_inline)) {
+        const F<N> t =
+            choose(sea, least<F<N>>(-2.0f * h, one), choose(land, F<N>(2.5f * h), least<F<N>>(4.0f * (h - 0.4f), one)));
+        const auto blend = [&](float deep, float shallow, float grass, float rock,
+                               float snow) __attribute__((always_inline)) {
           const F<N> a = choose(sea, F<N>(shallow), choose(land, F<N>(grass), F<N>(rock)));
           const F<N> slope = choose(sea, F<N>(deep - shallow), choose(land, F<N>(rock - grass), F<N>(snow - rock)));
           return a + t * slope;
@@ -159,8 +158,8 @@ template <int N> Kernel kernel_of(const char* workload) {
   static constexpr struct {
     const char* name;
     Kernel kernel;
-  } kKernels[] = {{"W1", W::noise},         {"W2", W::marble},     {"W3a", W::perlin_once}, {"W3b", W::marble_perlin},
-                  {"W4", W::planet},        {"W5", W::mandelbrot}, {"W6", W::worley},       {"W7", W::brick},
+  } kKernels[] = {{"W1", W::noise},         {"W2", W::marble},     {"W3a", W::perlin_once},   {"W3b", W::marble_perlin},
+                  {"W4", W::planet},        {"W5", W::mandelbrot}, {"W6", W::worley},         {"W7", W::brick},
                   {"W8fd", W::differences}, {"W8ad", W::slope},    {"height", W::bump_height}};
   for (const auto& entry : kKernels)
     if (std::strcmp(entry.name, workload) == 0) return entry.kernel;

@@ -40,12 +40,13 @@ template <int N> struct Worley {
     const F<N> i = floor(p.x), j = floor(p.y), k = floor(p.z), one = 1.0f;
     x = p.x - i, y = p.y - j, z = p.z - k;
     hx = lattice<N>(i) * 0x9e3779b1u, hy = lattice<N>(j) * 0x85ebca77u, hz = lattice<N>(k) * 0xc2b2ae3du;
-    static constexpr int8_t kRows[9][2] = {{0, 0}, {-1, 0}, {1, 0}, {0, -1}, {0, 1}, {-1, -1}, {1, -1}, {-1, 1}, {1, 1}};
+    static constexpr int8_t kRows[9][2] = {{0, 0},   {-1, 0}, {1, 0},  {0, -1}, {0, 1},
+                                           {-1, -1}, {1, -1}, {-1, 1}, {1, 1}};
 #pragma clang loop unroll(disable)
     for (const int8_t(&r)[2] : kRows)
       row(r[0], r[1], 1);
-    const F<N> side = least<F<N>>(least<F<N>>(least<F<N>>(x, one - x), least<F<N>>(y, one - y)),
-                                  least<F<N>>(z, one - z));
+    const F<N> side =
+        least<F<N>>(least<F<N>>(least<F<N>>(x, one - x), least<F<N>>(y, one - y)), least<F<N>>(z, one - z));
     const auto beyond = (side + 1.0f) * (side + 1.0f) < nearest;
     bool some;
     if constexpr (N == 1)
