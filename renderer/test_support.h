@@ -44,6 +44,20 @@ private:
   std::string path_;
 };
 
+/// As data URIs have it.
+inline std::string base64(const std::string& bytes) {
+  const char* digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  for (size_t k = 0; k < bytes.size(); k += 3) {
+    uint32_t group = 0;
+    for (size_t i = 0; i < 3; ++i)
+      group = group << 8 | (k + i < bytes.size() ? uint8_t(bytes[k + i]) : 0);
+    for (size_t i = 0; i < 4; ++i)
+      text += k + i > bytes.size() ? '=' : digits[group >> (18 - 6 * i) & 63];
+  }
+  return text;
+}
+
 /// A shader whose entries are C++ functions from the inputs' components to the results', in double.
 class CppShader : public Shader {
 public:

@@ -25,6 +25,12 @@ ShaderLoad RecordingShaders::load(const std::string& file, const std::map<std::s
   return load;
 }
 
+OpenedImage RecordingShaders::open_image(const SlotImage& image, bool raw) {
+  OpenedImage opened = source_.open_image(image, raw);
+  if (!opened.path.empty()) files_.insert(opened.path);
+  return opened;
+}
+
 namespace {
 
 /// Which part a file belongs to, by its ending.

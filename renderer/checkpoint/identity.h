@@ -27,6 +27,7 @@ public:
   explicit RecordingShaders(ShaderSource& source) : source_(source) {}
   ShaderLoad load(const std::string& file, const std::map<std::string, Constant>& parameters,
                   const std::map<std::string, std::string>& overrides) override;
+  OpenedImage open_image(const SlotImage& image, bool raw) override;
   const std::set<std::string>& files() const { return files_; }
 
 private:

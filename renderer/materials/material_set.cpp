@@ -1,6 +1,7 @@
 // Loading: which file gives which slot. Evaluation: slots by constant or by call, kept in range.
 #include "renderer/materials/material_set.h"
 
+#include "renderer/materials/image_shader.h"
 #include "renderer/scene/folders.h"
 
 #include <algorithm>
@@ -32,6 +33,7 @@ private:
   std::string from_whole_file(CompiledMaterial& compiled, std::string& warnings);
   std::string slot(CompiledMaterial& compiled, Slot slot, const std::string& file, std::string& warnings);
   std::string height(CompiledMaterial& compiled, const std::string& file, std::string& warnings);
+  std::string image(CompiledMaterial& compiled, Slot slot, std::string& warnings);
   std::string volume(CompiledMaterial& compiled, std::string& warnings);
   std::string volume_entry(const std::string& file, const char* name, unsigned components, bool required,
                            std::optional<EntryCall>& call, std::string& warnings);
@@ -74,6 +76,22 @@ std::string MaterialLoader::slot(CompiledMaterial& compiled, Slot slot, const st
                        : error;
 }
 
+/// An image that cannot be read is no error: models travel without theirs.
+std::string MaterialLoader::image(CompiledMaterial& compiled, Slot slot, std::string& warnings) {
+  const SlotImage& image = *material_.images[size_t(slot)];
+  const SlotInfo& info = slot_infos()[size_t(slot)];
+  const bool raw = info.components == 1 && image.part != SlotImage::Part::Alpha; // alpha is never decoded
+  OpenedImage opened = source_.open_image(image, raw);
+  if (!opened.image) {
+    const std::string warning = image.place + ": warning: the image '" + image.name + "' is not shown: ";
+    if (warnings.find(warning) == std::string::npos) warnings += warning + opened.error + "\n";
+    if (slot == Slot::Emission) compiled.constants[size_t(slot)] = Vec3(0); // what glows in spots glows nowhere then
+    return "";
+  }
+  return EntryCall::bind(image_shader(slot, image, std::move(opened.image)), image.name, info.name, info.components,
+                         compiled.calls[size_t(slot)]);
+}
+
 /// The gradient of a height, where the shader has it: only compiled ones do.
 std::string bind_gradient(CompiledMaterial& compiled, const std::shared_ptr<const Shader>& shader,
                           const std::string& file) {
@@ -114,7 +132,7 @@ std::string MaterialLoader::from_whole_file(CompiledMaterial& compiled, std::str
     for (size_t s = 0; s < kSlotCount; ++s) {
       if (entry.name != slot_infos()[s].name) continue;
       any = true;
-      if (material_.values[s] || !material_.shaders[s].empty()) continue;
+      if (material_.values[s] || material_.images[s] || !material_.shaders[s].empty()) continue;
       if (std::string error = slot(compiled, Slot(s), material_.shader, warnings); !error.empty()) return error;
     }
     if (entry.name != "height") continue;
@@ -178,6 +196,8 @@ std::string MaterialLoader::load(CompiledMaterial& compiled, std::string& warnin
     return error.empty() && !unknown_.empty() ? unknown_.begin()->second : error;
   for (size_t s = 0; s < kSlotCount; ++s) {
     compiled.constants[s] = material_.values[s].value_or(slot_infos()[s].default_value);
+    if (material_.images[s] && material_.shaders[s].empty())
+      if (std::string error = image(compiled, Slot(s), warnings); !error.empty()) return error;
     if (material_.shaders[s].empty()) continue;
     if (std::string error = slot(compiled, Slot(s), material_.shaders[s], warnings); !error.empty()) return error;
   }

@@ -25,12 +25,9 @@ struct ShaderFile {
 
 class RuntimeShaders : public ShaderSource {
 public:
-  explicit RuntimeShaders(const ShaderOptions& options) : options_(options) {
-    AllowedFolders folders;
-    for (const std::string& folder : options.folders)
-      folders.allow(folder);
-    images_ = [this, open = file_images(folders)](const std::string& file, const std::string& from, bool raw) {
-      OpenedImage opened = open(file, from, raw);
+  explicit RuntimeShaders(const ShaderOptions& options) : options_(options), store_(allowed(options.folders)) {
+    images_ = [this](const std::string& file, const std::string& from, bool raw) {
+      OpenedImage opened = store_.open(file, from, raw);
       if (opened.image != nullptr) images_opened_.push_back(opened.path);
       return opened;
     };
@@ -38,13 +35,23 @@ public:
 
   ShaderLoad load(const std::string& file, const std::map<std::string, Constant>& parameters,
                   const std::map<std::string, std::string>& overrides) override;
+  OpenedImage open_image(const SlotImage& image, bool raw) override {
+    return image.bytes ? store_.decode(image.bytes, raw) : store_.open(image.file, "", raw);
+  }
 
 private:
+  static AllowedFolders allowed(const std::vector<std::string>& names) {
+    AllowedFolders folders;
+    for (const std::string& folder : names)
+      folders.allow(folder);
+    return folders;
+  }
   ShaderFile& open(const std::string& file);
   std::shared_ptr<const Program> program(ShaderFile& shader, const std::map<std::string, Constant>& baked);
 
   ShaderOptions options_;
-  ImageOpener images_;
+  ImageStore store_;
+  ImageOpener images_;                     ///< of shaders
   std::vector<std::string> images_opened_; ///< by the shader that is being loaded
   std::map<std::string, ShaderFile> files_;
 };

@@ -1,6 +1,7 @@
-// Where materials get their shaders from: the runtime's compiler or its interpreter, or a test's own.
+// Where materials get their shaders and images from: the runtime's compiler or its interpreter, or a test's own.
 #pragma once
 
+#include "renderer/scene/scene.h"
 #include "runtime/shader.h"
 
 #include <map>
@@ -26,6 +27,11 @@ public:
   /// The shader in `file` with these parameters; `overrides` are texts of the command line and win.
   virtual ShaderLoad load(const std::string& file, const std::map<std::string, Constant>& parameters,
                           const std::map<std::string, std::string>& overrides) = 0;
+  /// `raw`: its numbers are no colours.
+  virtual OpenedImage open_image(const SlotImage& image, bool raw) {
+    static_cast<void>(image), static_cast<void>(raw);
+    return {nullptr, "there is nobody who opens it"};
+  }
 };
 
 enum class Backend : uint8_t { Jit, Interp };

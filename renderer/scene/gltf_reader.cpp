@@ -1,6 +1,7 @@
 // tinygltf reads the structure; every index, offset and count in it is checked here before it is used.
 #include "renderer/scene/gltf_reader.h"
 
+#include <charconv>
 #include <cstring>
 #include <exception>
 #include <glm/gtc/matrix_transform.hpp>
@@ -28,7 +29,8 @@ template <typename T> const T& at(const std::vector<T>& items, int index, const 
 
 class GltfReader {
 public:
-  GltfReader(const std::string& path, const tinygltf::Model& gltf) : path_(path), gltf_(gltf) {}
+  GltfReader(const std::string& path, const tinygltf::Model& gltf, const Folders& folders)
+      : path_(path), gltf_(gltf), folders_(folders) {}
   Model read();
 
 private:
@@ -43,15 +45,21 @@ private:
   std::vector<uint32_t> indices(const tinygltf::Primitive& primitive, size_t vertices, const std::string& what) const;
   std::shared_ptr<const Mesh> mesh(const tinygltf::Primitive& primitive, const std::string& what);
   void materials();
-  void warn_of_images();
+  void image(Material& material, Slot slot, const tinygltf::TextureInfo& info, SlotImage::Part part);
+  std::string find_image(int index, SlotImage& image);
+  void transform(const tinygltf::ExtensionMap& extensions, const std::string& what, SlotImage& image);
+  void warn_of_what_is_passed_over();
   void nodes();
   void place(const tinygltf::Node& node, const Mat4& to_world, size_t index);
   void warn(const std::string& text) { model_.warnings.push_back(path_ + ": " + text); }
 
   const std::string& path_;
   const tinygltf::Model& gltf_;
+  const Folders& folders_;
   Model model_;
+  bool normal_maps_ = false;
   std::map<std::pair<int, size_t>, std::shared_ptr<const Mesh>> meshes_; ///< by mesh and primitive
+  std::map<int, std::shared_ptr<const std::string>> image_bytes_;        ///< by image: kept once
 };
 
 GltfReader::Bytes GltfReader::bytes_of(int view_index, size_t offset, size_t count, size_t size, int stride,
@@ -212,6 +220,88 @@ double extension_number(const tinygltf::ExtensionMap& extensions, const char* ex
   return std::isfinite(number) ? number : otherwise;
 }
 
+/// "wood%20grain.png" as a file's name.
+std::string percent_decoded(const std::string& uri) {
+  std::string name;
+  for (size_t k = 0; k < uri.size(); ++k) {
+    unsigned byte = 0;
+    const char* digits = uri.data() + k + 1;
+    if (uri[k] == '%' && k + 2 < uri.size() && std::from_chars(digits, digits + 2, byte, 16).ptr == digits + 2) {
+      name += char(byte);
+      k += 2;
+    } else {
+      name += uri[k];
+    }
+  }
+  return name;
+}
+
+/// The file or the bytes of an image; what is wrong with it.
+std::string GltfReader::find_image(int index, SlotImage& image) {
+  if (index < 0 || size_t(index) >= gltf_.images.size()) return "it is not there, or in no form that is read";
+  const tinygltf::Image& source = gltf_.images[size_t(index)];
+  image.name = source.uri.empty() ? numbered("image", size_t(index)) : percent_decoded(source.uri);
+  if (!source.uri.empty()) {
+    ResolvedPath file = folders_.resolve(folder_of(path_), source.uri);
+    if (!file.error.empty()) file = folders_.resolve(folder_of(path_), image.name);
+    image.file = file.path;
+    return file.error;
+  }
+  auto& bytes = image_bytes_[index];
+  if (!bytes && source.bufferView < 0)
+    bytes = std::make_shared<const std::string>(source.image.begin(), source.image.end());
+  if (!bytes) {
+    if (size_t(source.bufferView) >= gltf_.bufferViews.size()) return "its buffer view is missing";
+    const size_t size = gltf_.bufferViews[size_t(source.bufferView)].byteLength;
+    try {
+      const Bytes view = bytes_of(source.bufferView, 0, 1, size, int(std::min(size, size_t(INT32_MAX))), image.name);
+      bytes = std::make_shared<const std::string>(reinterpret_cast<const char*>(view.begin), size);
+    } catch (const GltfError& fault) {
+      return fault.message;
+    }
+  }
+  image.bytes = bytes;
+  return "";
+}
+
+/// KHR_texture_transform, whose v points down.
+void GltfReader::transform(const tinygltf::ExtensionMap& extensions, const std::string& what, SlotImage& image) {
+  const auto found = extensions.find("KHR_texture_transform");
+  if (found == extensions.end() || !found->second.IsObject()) return;
+  auto pair = [&](const char* name, Vec2 otherwise) {
+    const tinygltf::Value& list = found->second.Get(name);
+    for (size_t k = 0; k < 2 && list.IsArray() && k < list.ArrayLen(); ++k)
+      if (list.Get(k).IsNumber() && std::abs(list.Get(k).GetNumberAsDouble()) < 1e9)
+        otherwise[int(k)] = float(list.Get(k).GetNumberAsDouble());
+    return otherwise;
+  };
+  const Vec2 offset = pair("offset", Vec2(0));
+  image.scale = pair("scale", Vec2(1));
+  image.offset = Vec2(offset.x, 1 - offset.y - image.scale.y);
+  if (extension_number(extensions, "KHR_texture_transform", "rotation", 0) != 0)
+    warn(what + "the rotation of an image is passed over");
+}
+
+/// What the slot has so far is the factor, and stands in for an image that cannot be shown.
+void GltfReader::image(Material& material, Slot slot, const tinygltf::TextureInfo& info, SlotImage::Part part) {
+  if (info.index < 0) return;
+  SlotImage image;
+  image.part = part;
+  image.place = path_;
+  image.factor = material.values[size_t(slot)].value_or(slot_infos()[size_t(slot)].default_value);
+  const std::string what = "the material '" + material.name + "': ";
+  const bool known = size_t(info.index) < gltf_.textures.size();
+  std::string error = find_image(known ? gltf_.textures[size_t(info.index)].source : -1, image);
+  if (error.empty() && info.texCoord != 0) error = "it has texture coordinates of its own, which are not read";
+  if (!error.empty()) {
+    if (slot == Slot::Emission) material.values[size_t(slot)] = Vec3(0);
+    const std::string name = image.name.empty() ? "" : " '" + image.name + "'";
+    return warn(what + "the image" + name + " of its " + slot_infos()[size_t(slot)].name + " is not shown: " + error);
+  }
+  transform(info.extensions, what, image);
+  material.images[size_t(slot)] = std::move(image);
+}
+
 void GltfReader::materials() {
   Material standard;
   standard.name = "default";
@@ -240,14 +330,29 @@ void GltfReader::materials() {
     m.values[size_t(Slot::Ior)] = number(extension_number(source.extensions, "KHR_materials_ior", "ior", 1.5), 1, 100);
     m.values[size_t(Slot::Transmission)] =
         number(extension_number(source.extensions, "KHR_materials_transmission", "transmissionFactor", 0), 0, 1);
-    if (source.alphaMode == "BLEND" && pbr.baseColorFactor.size() == 4)
-      m.values[size_t(Slot::Opacity)] = number(pbr.baseColorFactor[3], 0, 1);
+    image(m, Slot::Color, pbr.baseColorTexture, SlotImage::Part::Red);
+    image(m, Slot::Metallic, pbr.metallicRoughnessTexture, SlotImage::Part::Blue);
+    image(m, Slot::Roughness, pbr.metallicRoughnessTexture, SlotImage::Part::Green);
+    image(m, Slot::Emission, source.emissiveTexture, SlotImage::Part::Red);
+    if (source.alphaMode == "BLEND" || source.alphaMode == "MASK") {
+      auto& opacity = m.values[size_t(Slot::Opacity)];
+      auto& alpha = m.images[size_t(Slot::Opacity)];
+      opacity = number(pbr.baseColorFactor.size() == 4 ? pbr.baseColorFactor[3] : 1, 0, 1);
+      // The same image as the colour's, of which all that can be said has been.
+      if ((alpha = m.images[size_t(Slot::Color)])) alpha->part = SlotImage::Part::Alpha, alpha->factor = *opacity;
+      if (source.alphaMode == "MASK") {
+        const float cutoff = number(source.alphaCutoff, 0, 1).x;
+        if (alpha) alpha->cutoff = cutoff;
+        opacity = Vec3(opacity->x >= cutoff ? 1.0f : 0.0f);
+      }
+    }
+    normal_maps_ |= source.normalTexture.index >= 0;
     model_.materials.push_back(std::move(m));
   }
 }
 
-void GltfReader::warn_of_images() {
-  if (!gltf_.textures.empty()) warn("images of materials are passed over");
+void GltfReader::warn_of_what_is_passed_over() {
+  if (normal_maps_) warn("normal maps are passed over");
   if (!gltf_.skins.empty()) warn("skins are passed over");
   if (!gltf_.animations.empty()) warn("animations are passed over");
 }
@@ -325,13 +430,13 @@ void GltfReader::nodes() {
 
 Model GltfReader::read() {
   materials();
-  warn_of_images();
+  warn_of_what_is_passed_over();
   nodes();
   if (model_.objects.empty()) fail("has no triangles");
   return std::move(model_);
 }
 
-// What tinygltf may open: buffers in the folders of the scene. Images are not wanted.
+// What tinygltf may open: buffers in the folders of the scene. Images are opened when the scene is prepared.
 struct Files {
   const Folders* folders;
   std::string base;
@@ -370,9 +475,14 @@ Model parse_gltf(const std::string& path, std::string_view bytes, const Folders&
   Files files{&folders, folder_of(path)};
   tinygltf::TinyGLTF loader;
   loader.SetFsCallbacks(callbacks(files));
-  loader.SetImageLoader([](tinygltf::Image*, const int, std::string*, std::string*, int, int, const unsigned char*, int,
-                           void*) { return true; },
-                        nullptr);
+  loader.SetImageLoader(
+      [](tinygltf::Image* image, const int, std::string*, std::string*, int, int, const unsigned char* bytes, int size,
+         void*) {
+        // Within a URI; the others have a place where their bytes are found.
+        if (image->uri.empty() && image->bufferView < 0) image->image.assign(bytes, bytes + size);
+        return true;
+      },
+      nullptr);
   tinygltf::Model gltf;
   std::string error, warnings;
   if (bytes.size() >= size_t(INT32_MAX)) return model.error = path + ": larger than two gigabytes", model;
@@ -384,7 +494,7 @@ Model parse_gltf(const std::string& path, std::string_view bytes, const Folders&
                                                    unsigned(bytes.size()), "")
                      : loader.LoadASCIIFromString(&gltf, &error, &warnings, bytes.data(), unsigned(bytes.size()), "");
     if (!ok) return model.error = path + ": " + (error.empty() ? "is no glTF" : first_line(error)), model;
-    return GltfReader(path, gltf).read();
+    return GltfReader(path, gltf, folders).read();
   } catch (const GltfError& fault) {
     model.error = path + ": " + fault.message;
   } catch (const std::bad_alloc&) {

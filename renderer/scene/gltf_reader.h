@@ -1,5 +1,6 @@
 // glTF 2.0, as text (.gltf, with its buffers beside it or within) or binary (.glb), by tinygltf: nodes, triangles and
-// the numbers of materials. Images, skins, morph targets and animations are passed over with a warning.
+// the numbers and images of materials (beside the file or within). Normal maps, skins, morph targets and animations are
+// passed over with a warning, as is an image that is not there.
 #pragma once
 
 #include "renderer/scene/folders.h"
@@ -10,7 +11,7 @@
 
 namespace moonshade::renderer {
 
-/// Buffers are files of `folders`.
+/// Buffers and images are files of `folders`.
 Model read_gltf(const std::string& path, const Folders& folders);
 
 /// The same for a file's bytes; `path` names it in messages, and its folder is where buffers are looked for.

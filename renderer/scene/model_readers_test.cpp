@@ -11,6 +11,7 @@
 namespace moonshade::renderer {
 namespace {
 
+using testing::base64;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using testing::TemporaryFolder;
@@ -136,19 +137,6 @@ TEST(Ply, SurvivesDamage) {
 
 // glTF
 // ------------------------------------------------------------------------------------------------------------------
-
-std::string base64(const std::string& bytes) {
-  const char* digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (size_t k = 0; k < bytes.size(); k += 3) {
-    uint32_t group = 0;
-    for (size_t i = 0; i < 3; ++i)
-      group = group << 8 | (k + i < bytes.size() ? uint8_t(bytes[k + i]) : 0);
-    for (size_t i = 0; i < 4; ++i)
-      text += k + i > bytes.size() ? '=' : digits[group >> (18 - 6 * i) & 63];
-  }
-  return text;
-}
 
 /// A unit square: four positions, then six indices of 16 bits.
 std::string square_bytes() {

@@ -1,8 +1,12 @@
 // How MTL's numbers become ours: Kd color; Ks = 0 no specular reflection (ior 1); Ns the roughness with the same width
-// of highlight (alpha^2 = 2 / (Ns + 2), roughness = sqrt(alpha)); Ke emission; Pr and Pm roughness and metallic.
+// of highlight (alpha^2 = 2 / (Ns + 2), roughness = sqrt(alpha)), where there is no Pr; Ke emission; Pr and Pm
+// roughness and metallic; d, or else 1 - Tr, opacity. An image's factor is the number beside it, as the format has it,
+// or 1 where that is missing or 0: many programs write zeros beside an image.
 #include "renderer/scene/mtl_reader.h"
 
 #include <charconv>
+#include <map>
+#include <optional>
 #include <sstream>
 
 namespace moonshade::renderer {
@@ -21,6 +25,7 @@ public:
       line(text.substr(at, end - at));
       at = end + (text.substr(end).starts_with("\r\n") ? 2 : 1);
     }
+    finish_material();
     return std::move(reading_);
   }
 
@@ -39,11 +44,17 @@ private:
   bool numbers(std::istringstream& words, Vec3& v, bool allow_one);
   void color(Slot slot, std::istringstream& words);
   void scalar(const std::string& key, std::istringstream& words);
+  ResolvedPath resolve_image(const std::string& name) const;
+  void image(const std::string& key, Slot slot, std::istringstream& words);
+  void finish_material();
 
   std::string path_;
   const Folders& folders_;
   MtlReading reading_;
   size_t line_number_ = 0;
+  // Of the material in hand.
+  std::optional<Vec3> roughness_;               ///< as Pr states it
+  std::optional<float> opacity_, transparency_; ///< as d and Tr do
 };
 
 std::string trimmed(const std::string& text) {
@@ -135,13 +146,109 @@ void MtlParser::scalar(const std::string& key, std::istringstream& words) {
   if (key == "Ns")
     value(Slot::Roughness) = Vec3(std::sqrt(std::sqrt(2.0f / (std::max(v.x, 0.0f) + 2.0f))));
   else if (key == "Pr")
-    value(Slot::Roughness) = v;
+    roughness_ = v;
   else if (key == "Pm")
     value(Slot::Metallic) = v;
   else if (key == "Ni" && v.x >= 1)
     value(Slot::Ior) = v;
-  else if ((key == "d" && v.x < 1) || (key == "Tr" && v.x > 0))
-    warn("transparency ('" + key + "') is not available yet; drawn opaque");
+  else if (key == "d")
+    opacity_ = v.x;
+  else if (key == "Tr")
+    transparency_ = v.x;
+}
+
+/// Names from other people's machines ("C:\\models\\wood.png") lead nowhere; the image often came along, beside the
+/// file.
+ResolvedPath MtlParser::resolve_image(const std::string& name) const {
+  const ResolvedPath resolved = folders_.resolve(folder_of(path_), name);
+  const size_t separator = name.find_last_of("/\\");
+  if (resolved.error.empty() || separator == std::string::npos) return resolved;
+  const ResolvedPath beside = folders_.resolve(folder_of(path_), name.substr(separator + 1));
+  return beside.error.empty() ? beside : resolved;
+}
+
+/// How many words follow an option of an image; of those of vectors one to three numbers.
+int words_of_option(const std::string& option) {
+  static const std::map<std::string, int> kCounts = {
+      {"-blendu", 1},  {"-blendv", 1}, {"-boost", 1},  {"-bm", 1},   {"-cc", 1}, {"-clamp", 1}, {"-colorspace", 1},
+      {"-imfchan", 1}, {"-mm", 2},     {"-texres", 1}, {"-type", 1}, {"-o", 3},  {"-s", 3},     {"-t", 3}};
+  const auto found = kCounts.find(option);
+  return found == kCounts.end() ? -1 : found->second;
+}
+
+/// The first two of one to three numbers; `to` keeps what is not given.
+void read_vector(std::istringstream& words, Vec2& to) {
+  std::string word;
+  for (int k = 0; k < 3; ++k) {
+    const std::streampos before = words.tellg();
+    float number = 0;
+    if (!(words >> word)) return;
+    const auto [end, error] = std::from_chars(word.data() + (word[0] == '+'), word.data() + word.size(), number);
+    if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(number)) {
+      words.clear(), words.seekg(before);
+      return;
+    }
+    if (k < 2) to[k] = number;
+  }
+}
+
+/// `map_Kd -s 2 2 1 -clamp on wood grain.png`
+void MtlParser::image(const std::string& key, Slot slot, std::istringstream& words) {
+  SlotImage image;
+  std::string word;
+  std::streampos name_at = words.tellg();
+  for (; words >> word; name_at = words.tellg()) {
+    const int count = words_of_option(word);
+    if (count < 0) break;
+    if (word == "-s")
+      read_vector(words, image.scale);
+    else if (word == "-o")
+      read_vector(words, image.offset);
+    else if (Vec2 ignored(0); word == "-t")
+      read_vector(words, ignored);
+    else
+      for (int k = 0; k < count; ++k)
+        words >> word;
+  }
+  words.clear(), words.seekg(name_at);
+  image.name = rest(words);
+  if (image.name.empty()) return warn("'" + key + "' names no image; ignored");
+  ResolvedPath resolved = resolve_image(image.name);
+  const size_t comment = image.name.find(" #");
+  if (!resolved.error.empty() && comment != std::string::npos) {
+    image.name = trimmed(image.name.substr(0, comment));
+    resolved = resolve_image(image.name);
+  }
+  if (!resolved.error.empty()) return warn("'" + key + "': " + resolved.error + "; drawn without this image");
+  image.file = resolved.path;
+  image.place = place();
+  image.part = slot == Slot::Opacity ? SlotImage::Part::Mask : SlotImage::Part::Red;
+  material().images[size_t(slot)] = std::move(image);
+}
+
+void MtlParser::finish_material() {
+  if (reading_.materials.empty()) return;
+  auto& images = material().images;
+  if (images[size_t(Slot::Roughness)] || roughness_) value(Slot::Roughness) = roughness_;
+  if (transparency_) value(Slot::Opacity) = Vec3(1 - *transparency_);
+  if (opacity_) value(Slot::Opacity) = Vec3(*opacity_);
+  for (size_t s = 0; s < kSlotCount; ++s) {
+    auto& constant = material().values[s];
+    if (!images[s]) continue;
+    if (constant && is_black(*constant)) constant.reset();
+    images[s]->factor = constant.value_or(Vec3(1));
+  }
+  roughness_.reset(), opacity_.reset(), transparency_.reset();
+}
+
+std::optional<Slot> slot_of_image(const std::string& key) {
+  static const std::map<std::string, Slot> kSlots = {{"map_kd", Slot::Color},
+                                                     {"map_ke", Slot::Emission},
+                                                     {"map_d", Slot::Opacity},
+                                                     {"map_pr", Slot::Roughness},
+                                                     {"map_pm", Slot::Metallic}};
+  const auto found = kSlots.find(key);
+  return found == kSlots.end() ? std::nullopt : std::optional(found->second);
 }
 
 void MtlParser::line(std::string_view text) {
@@ -150,6 +257,7 @@ void MtlParser::line(std::string_view text) {
   std::string key;
   if (!(words >> key) || key[0] == '#') return;
   if (key == "newmtl") {
+    finish_material();
     reading_.materials.emplace_back();
     material().name = rest(words);
     material().place = place();
@@ -166,8 +274,11 @@ void MtlParser::line(std::string_view text) {
     value(Slot::Ior) = Vec3(1);
   else if (key == "Ns" || key == "Ni" || key == "d" || key == "Tr" || key == "Pr" || key == "Pm")
     scalar(key, words);
-  else if (key.starts_with("map_") || key == "bump" || key == "disp" || key == "norm")
-    warn("images ('" + key + "') are not available yet; ignored");
+  else if (const auto slot = slot_of_image(lower_case(key)))
+    image(key, *slot, words);
+  else if (key != "map_Ka" &&
+           (key.starts_with("map_") || key == "bump" || key == "disp" || key == "norm" || key == "refl"))
+    warn("images of this kind ('" + key + "') are not shown; ignored");
   else if (std::string lower = lower_case(std::string(text)); lower.find("shader") != std::string::npos)
     warn("unknown statement '" + key + "'; shaders are named by texture_shader, bump_shader and reflect_shader");
 }

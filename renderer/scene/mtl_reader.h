@@ -1,4 +1,4 @@
-// Wavefront MTL, read by a pass of our own: the common numbers, and the three statements that name shaders,
+// Wavefront MTL, read by a pass of our own: the common numbers and images, and the three statements that name shaders,
 // `texture_shader x.lua` (the file's `color`), `bump_shader x.lua` (its `height`) and `reflect_shader x.lua` (its
 // `reflectance`), each also written with a blank instead of the underscore.
 #pragma once

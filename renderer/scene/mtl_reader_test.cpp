@@ -59,11 +59,11 @@ TEST_F(MtlReader, RefusesShadersThatItCannotOpen) {
 }
 
 TEST_F(MtlReader, BumpImagesAreNoShaders) {
-  MtlReading mtl = parse("newmtl m\nbump rock.png\nmap_Kd -s 1 1 1 rock.png\n");
+  MtlReading mtl = parse("newmtl m\nbump rock.png\nmap_Ks rock.png\nmap_Ka rock.png\n");
   EXPECT_EQ(mtl.error, "");
   EXPECT_EQ(mtl.materials[0].height_shader, "");
   ASSERT_EQ(mtl.warnings.size(), 2u);
-  EXPECT_THAT(mtl.warnings[0], HasSubstr("m.mtl:2: images ('bump') are not available yet"));
+  EXPECT_THAT(mtl.warnings[0], HasSubstr("m.mtl:2: images of this kind ('bump') are not shown"));
 }
 
 TEST_F(MtlReader, ReadsTheCommonNumbers) {
@@ -79,9 +79,19 @@ TEST_F(MtlReader, ReadsTheCommonNumbers) {
   EXPECT_EQ(second.values[size_t(Slot::Roughness)]->x, 0.25f);
   EXPECT_EQ(second.values[size_t(Slot::Metallic)]->x, 1.0f);
   EXPECT_EQ(second.values[size_t(Slot::Ior)]->x, 1.3f);
-  ASSERT_EQ(mtl.warnings.size(), 2u);
-  EXPECT_THAT(mtl.warnings[0], HasSubstr("transparency ('d') is not available yet"));
-  EXPECT_THAT(mtl.warnings[1], HasSubstr("m.mtl:11: no colour"));
+  EXPECT_EQ(second.values[size_t(Slot::Opacity)], Vec3(0.5f));
+  ASSERT_EQ(mtl.warnings.size(), 1u);
+  EXPECT_THAT(mtl.warnings[0], HasSubstr("m.mtl:11: no colour"));
+}
+
+TEST_F(MtlReader, BelievesTheNewerStatementOfTwo) {
+  MtlReading mtl = parse("newmtl a\nPr 0.25\nNs 6\nTr 1\nd 0.75\nnewmtl b\nTr 0.25\nnewmtl c\n");
+  ASSERT_EQ(mtl.materials.size(), 3u);
+  EXPECT_EQ(mtl.materials[0].values[size_t(Slot::Roughness)], Vec3(0.25f)); // Pr, whatever Ns says
+  EXPECT_EQ(mtl.materials[0].values[size_t(Slot::Opacity)], Vec3(0.75f));   // d, whatever Tr says
+  EXPECT_EQ(mtl.materials[1].values[size_t(Slot::Opacity)], Vec3(0.75f));
+  EXPECT_FALSE(mtl.materials[1].values[size_t(Slot::Roughness)]);
+  EXPECT_FALSE(mtl.materials[2].values[size_t(Slot::Opacity)]);
 }
 
 TEST_F(MtlReader, SurvivesWhatIsNoMaterialFile) {

@@ -54,6 +54,20 @@ inline const std::array<SlotInfo, kSlotCount>& slot_infos() {
   return infos;
 }
 
+/// An image that a model's material names for a slot, which becomes `factor` times what the image has there.
+struct SlotImage {
+  /// What of the image gives a slot of one number. Mask: alpha where the image has any, else red.
+  enum class Part : uint8_t { Red, Green, Blue, Alpha, Mask };
+
+  std::string file;                         ///< a path that may be opened; or
+  std::shared_ptr<const std::string> bytes; ///< of a PNG or JPEG within the model's file
+  std::string name, place;                  ///< for messages: "wood.png", "table.mtl:7"
+  Part part = Part::Red;
+  Vec3 factor{1};
+  Vec2 scale{1}, offset{0};    ///< it is looked up at uv · scale + offset
+  std::optional<float> cutoff; ///< the slot is 1 from here on, and 0 below
+};
+
 /// How `height` bends the normal: by its exact gradient, by differences over the footprint, by the paper's formula.
 enum class BumpMode : uint8_t { Gradient, Differences, Paper };
 
@@ -62,7 +76,9 @@ struct Material {
   std::string place; ///< "scene.lua:12", for messages
   /// Constants; nothing where the file or the default decides.
   std::array<std::optional<Vec3>, kSlotCount> values;
-  /// A shader file for one entry alone; wins over `shader`.
+  /// Win over constants, which stand in where an image cannot be read.
+  std::array<std::optional<SlotImage>, kSlotCount> images;
+  /// A shader file for one entry alone; wins over `shader` and images.
   std::array<std::string, kSlotCount> shaders;
   std::string height_shader;
   /// Gives every entry that is not set above.

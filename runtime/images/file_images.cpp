@@ -97,9 +97,11 @@ private:
 
 class FileImage final : public Image {
 public:
-  FileImage(std::shared_ptr<Textures> textures, std::unique_ptr<Pyramid> pyramid)
-      : textures_(std::move(textures)), pyramid_(std::move(pyramid)), name_(textures_->add(pyramid_.get())),
-        handle_(textures_->system().get_texture_handle(name_)) {}
+  /// `source` lives as long as the image does.
+  FileImage(std::shared_ptr<Textures> textures, std::unique_ptr<Pyramid> pyramid,
+            std::shared_ptr<const std::string> source = nullptr)
+      : textures_(std::move(textures)), pyramid_(std::move(pyramid)), source_(std::move(source)),
+        name_(textures_->add(pyramid_.get())), handle_(textures_->system().get_texture_handle(name_)) {}
   ~FileImage() override { textures_->remove(name_); }
 
   bool is_good() const { return textures_->system().good(handle_); }
@@ -141,6 +143,7 @@ public:
 private:
   std::shared_ptr<Textures> textures_;
   std::unique_ptr<Pyramid> pyramid_;
+  std::shared_ptr<const std::string> source_;
   OIIO::ustring name_;
   OIIO::TextureSystem::TextureHandle* handle_;
 };
@@ -154,25 +157,55 @@ public:
     if (auto image = known.lock()) return {std::move(image), "", path};
     auto pyramid = std::make_unique<Pyramid>();
     if (std::string error = pyramid->read(path, raw); !error.empty()) return {nullptr, error};
-    auto image = std::make_shared<const FileImage>(textures_, std::move(pyramid));
+    return show(std::move(pyramid), nullptr, known, path);
+  }
+
+  OpenedImage decode(const std::shared_ptr<const std::string>& bytes, bool raw) {
+    const std::lock_guard lock(mutex_);
+    // An image keeps its bytes, so that no others can have their address while it lives.
+    std::weak_ptr<const FileImage>& known = decoded_[{bytes.get(), raw}];
+    if (auto image = known.lock()) return {std::move(image), ""};
+    auto pyramid = std::make_unique<Pyramid>();
+    if (std::string error = pyramid->decode(*bytes, raw); !error.empty()) return {nullptr, error};
+    return show(std::move(pyramid), bytes, known, "");
+  }
+
+private:
+  OpenedImage show(std::unique_ptr<Pyramid> pyramid, std::shared_ptr<const std::string> source,
+                   std::weak_ptr<const FileImage>& known, const std::string& path) {
+    auto image = std::make_shared<const FileImage>(textures_, std::move(pyramid), std::move(source));
     if (!image->is_good()) return {nullptr, image->error()};
     known = image;
     return {std::move(image), "", path};
   }
 
-private:
   std::shared_ptr<Textures> textures_ = std::make_shared<Textures>();
   std::mutex mutex_;
   std::map<std::pair<std::string, bool>, std::weak_ptr<const FileImage>> open_;
+  std::map<std::pair<const std::string*, bool>, std::weak_ptr<const FileImage>> decoded_;
 };
 
 } // namespace
 
+struct ImageStore::State {
+  AllowedFolders folders;
+  Files files = {};
+};
+
+ImageStore::ImageStore(AllowedFolders folders) : state_(new State{std::move(folders)}) {}
+
+OpenedImage ImageStore::open(const std::string& file, const std::string& from, bool raw) const {
+  const ResolvedPath resolved = state_->folders.resolve(folder_of(from), file);
+  return resolved.error.empty() ? state_->files.open(resolved.path, raw) : OpenedImage{nullptr, resolved.error};
+}
+
+OpenedImage ImageStore::decode(const std::shared_ptr<const std::string>& bytes, bool raw) const {
+  return state_->files.decode(bytes, raw);
+}
+
 ImageOpener file_images(AllowedFolders folders) {
-  return [files = std::make_shared<Files>(), folders = std::move(folders)](const std::string& file,
-                                                                           const std::string& from, bool raw) {
-    const ResolvedPath resolved = folders.resolve(folder_of(from), file);
-    return resolved.error.empty() ? files->open(resolved.path, raw) : OpenedImage{nullptr, resolved.error};
+  return [store = ImageStore(std::move(folders))](const std::string& file, const std::string& from, bool raw) {
+    return store.open(file, from, raw);
   };
 }
 

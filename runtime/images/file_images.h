@@ -15,4 +15,19 @@ namespace moonshade {
 /// Numbers that are not finite count as 0.
 ImageOpener file_images(AllowedFolders folders);
 
+/// The same for a host that has images of its own beside those of shaders: what is open already is read once.
+/// Any number of threads may open images at once.
+class ImageStore {
+public:
+  explicit ImageStore(AllowedFolders folders);
+  /// As an ImageOpener.
+  OpenedImage open(const std::string& file, const std::string& from, bool raw) const;
+  /// The bytes of a PNG or JPEG file.
+  OpenedImage decode(const std::shared_ptr<const std::string>& bytes, bool raw) const;
+
+private:
+  struct State;
+  std::shared_ptr<State> state_;
+};
+
 } // namespace moonshade

@@ -257,5 +257,26 @@ TEST_F(FileImages, OutliveTheirFiles) {
   EXPECT_EQ(look_up(*image.image, 0.3f, 0.4f, 0.6f), before) << "and their opener";
 }
 
+TEST_F(FileImages, DecodesBytesAsItReadsFiles) {
+  write("a.png", 2, 1, 3, {1, 0.5f, 0, 0, 0, 1});
+  write("a.jpg", 1, 1, 3, {1, 1, 1});
+  write("a.tif", 1, 1, 3, {1, 1, 1});
+  const ImageStore store{AllowedFolders()};
+  const auto png = std::make_shared<const std::string>(bytes_of("a.png"));
+  for (const bool raw : {false, true}) {
+    const OpenedImage decoded = store.decode(png, raw);
+    ASSERT_NE(decoded.image, nullptr) << decoded.error;
+    EXPECT_EQ(decoded.path, "");
+    EXPECT_EQ(look_up(*decoded.image, 0.3f, 0.5f), look_up(*open("a.png", raw).image, 0.3f, 0.5f));
+    EXPECT_EQ(store.decode(png, raw).image, decoded.image); // kept once
+    EXPECT_NE(store.decode(png, !raw).image, decoded.image);
+  }
+  EXPECT_EQ(store.decode(std::make_shared<const std::string>(bytes_of("a.jpg")), true).error, "");
+  for (const std::string& bytes : {std::string(), bytes_of("a.tif"), std::string("<svg/>")})
+    EXPECT_EQ(store.decode(std::make_shared<const std::string>(bytes), true).error, "it is neither a PNG nor a JPEG");
+  for (size_t size = 4; size < png->size(); size += 7)
+    EXPECT_NE(store.decode(std::make_shared<const std::string>(png->substr(0, size)), true).error, "") << size;
+}
+
 } // namespace
 } // namespace moonshade

@@ -3,6 +3,7 @@
 // level is that of the image, whatever its size.
 #include "runtime/images/pyramid.h"
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
@@ -77,9 +78,23 @@ double srgb_decoded(double x) { return x <= 0.04045 ? x / 12.92 : std::pow((x + 
 std::string Pyramid::read(const std::string& path, bool raw) {
   const char* reader = reader_of(path);
   if (reader == nullptr) return "its name ends as no image that is read (png, jpg, exr, tif, hdr, tga, bmp)";
+  return read_with(reader, path, nullptr, raw);
+}
+
+std::string Pyramid::decode(const std::string& bytes, bool raw) {
+  const char* reader = bytes.starts_with("\x89PNG") ? "png" : bytes.starts_with("\xFF\xD8") ? "jpeg" : nullptr;
+  if (reader == nullptr) return "it is neither a PNG nor a JPEG";
+  return read_with(reader, std::string("memory.") + reader, &bytes, raw);
+}
+
+std::string Pyramid::read_with(const char* reader, const std::string& path, const std::string* bytes, bool raw) {
+  OIIO::Filesystem::IOMemReader memory(bytes != nullptr ? bytes->data() : nullptr,
+                                       bytes != nullptr ? bytes->size() : 0);
   const auto input = OIIO::ImageInput::create(reader);
   OIIO::ImageSpec spec, config;
   config["oiio:UnassociatedAlpha"] = 1;
+  OIIO::Filesystem::IOProxy* proxy = &memory;
+  if (bytes != nullptr) config.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, static_cast<const void*>(&proxy));
   if (!input) return "there is no reader for it";
   if (!input->open(path, spec, config)) return first_line(input->geterror());
   if (std::string error = check_size(spec); !error.empty()) return error;

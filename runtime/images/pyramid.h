@@ -15,6 +15,8 @@ class Pyramid {
 public:
   /// Reads a file whole; gives the error. `raw`: 8-bit numbers are not decoded from sRGB.
   std::string read(const std::string& path, bool raw);
+  /// The same for the bytes of a PNG or JPEG file.
+  std::string decode(const std::string& bytes, bool raw);
 
   int levels() const { return static_cast<int>(sizes_.size()); }
   int width(int level) const { return sizes_[static_cast<size_t>(level)].width; }
@@ -26,6 +28,7 @@ private:
   struct Size {
     int width, height;
   };
+  std::string read_with(const char* reader, const std::string& path, const std::string* bytes, bool raw);
   void make_levels();
   Texel expand(const std::array<float, 4>& channels) const;
 
