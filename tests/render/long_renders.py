@@ -53,7 +53,9 @@ with tempfile.TemporaryDirectory() as folder:
         break
     check(kills >= 2 and os.path.exists(image), f"{kills} kills, {files_in(folder)}")
     check(Exr(image).pixels() == reference.pixels(), "the resumed render differs")
-    check(sorted(given + ["a.exr", "whole.exr"]) == files_in(folder), f"files are left: {files_in(folder)}")
+    # One killed within the milliseconds of writing its image leaves the temporary file, which nothing could remove.
+    left = [name for name in files_in(folder) if not (name.startswith("a.exr.") and name.endswith(".exr"))]
+    check(sorted(given + ["a.exr", "whole.exr"]) == left, f"files are left: {left}")
 
     # A checkpoint by Ctrl-C, and who may go on from it.
     def interrupt():
