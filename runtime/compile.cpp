@@ -154,10 +154,13 @@ Compilation compile_anew(const CheckedShader& shader, const SourceClosure& sourc
     return {nullptr, diagnostics + "error: " + error + "\n"};
   times.ir = watch.lap();
 
-  const codegen::Options wanted = jit_options(options);
+  codegen::Options wanted = jit_options(options);
   codegen::Options first = wanted;
   const bool tiered = options.background != nullptr && options.optimization > 1;
-  if (tiered) make_quick(first);
+  if (tiered) {
+    make_quick(first);
+    wanted.library_calls = codegen::LibraryCalls::None; // nobody waits for it: as fast as can be
+  }
   std::string object;
   codegen::Generated generated = generate(*module, first, object, times);
   if (!generated.error.empty()) return {nullptr, diagnostics + refusal(shader, generated, options.color_diagnostics)};

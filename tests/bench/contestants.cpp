@@ -100,6 +100,7 @@ struct Maker {
     const bool native = std::string(cpu) == "native";
     CompileOptions options;
     options.width = width;
+    options.optimization = 3; // the code that a renderer ends up with
     options.cpu = cpu;
     options.entries = {workload.entry};
     const double start = thread_seconds();
