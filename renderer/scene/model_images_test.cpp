@@ -88,14 +88,15 @@ void expect_near(const Vec3& actual, const Vec3& expected, float error = 0.003f)
     EXPECT_NEAR(actual[c], expected[c], error) << "component " << c;
 }
 
-/// In the middles of the quarters of the picture: red, green; blue, white.
+/// In the middles of the quarters of the picture: red, green; blue, white; each with 0.11 of its two neighbours (the
+/// image repeats) and 0.016 of the third.
 void expect_corners(const Picture& picture) {
   ASSERT_EQ(picture.pixels.size(), 64u);
   auto at = [&](size_t x, size_t y) { return picture.pixels[y * 8 + x]; };
-  expect_near(at(1, 1), Vec3(0.77f, 0.11f, 0.11f), 0.12f);
-  expect_near(at(6, 1), Vec3(0.11f, 0.77f, 0.11f), 0.12f);
-  expect_near(at(1, 6), Vec3(0.11f, 0.11f, 0.77f), 0.12f);
-  expect_near(at(6, 6), Vec3(0.88f), 0.12f);
+  expect_near(at(1, 1), Vec3(0.78f, 0.125f, 0.125f), 0.05f);
+  expect_near(at(6, 1), Vec3(0.22f, 0.875f, 0.125f), 0.05f);
+  expect_near(at(1, 6), Vec3(0.22f, 0.125f, 0.875f), 0.05f);
+  expect_near(at(6, 6), Vec3(0.78f, 0.875f, 0.875f), 0.05f);
 }
 
 TEST_F(ModelImages, OfMtlStandUprightInThePicture) {

@@ -160,7 +160,7 @@ void MtlParser::scalar(const std::string& key, std::istringstream& words) {
 /// Names from other people's machines ("C:\\models\\wood.png") lead nowhere; the image often came along, beside the
 /// file.
 ResolvedPath MtlParser::resolve_image(const std::string& name) const {
-  const ResolvedPath resolved = folders_.resolve(folder_of(path_), name);
+  ResolvedPath resolved = folders_.resolve(folder_of(path_), name);
   const size_t separator = name.find_last_of("/\\");
   if (resolved.error.empty() || separator == std::string::npos) return resolved;
   const ResolvedPath beside = folders_.resolve(folder_of(path_), name.substr(separator + 1));

@@ -274,7 +274,7 @@ TEST_F(FileImages, DecodesBytesAsItReadsFiles) {
   EXPECT_EQ(store.decode(std::make_shared<const std::string>(bytes_of("a.jpg")), true).error, "");
   for (const std::string& bytes : {std::string(), bytes_of("a.tif"), std::string("<svg/>")})
     EXPECT_EQ(store.decode(std::make_shared<const std::string>(bytes), true).error, "it is neither a PNG nor a JPEG");
-  for (size_t size = 4; size < png->size(); size += 7)
+  for (size_t size = 4; size < png->size() / 2; size += 3)
     EXPECT_NE(store.decode(std::make_shared<const std::string>(png->substr(0, size)), true).error, "") << size;
 }
 
