@@ -1,8 +1,8 @@
 // What stands behind a compiled program and its instances, for the runtime's own files.
 //
 // A program's code may exist twice: made quickly, and optimised (CompileOptions::background). Both are made from the
-// same IR, so all that is known of the code but its text is the same: entries, constants, fault sites, width. A call
-// takes the code that is there when it begins; no code goes before the program does.
+// same IR, so all that is known of the code but its text and its width is the same: entries, constants, fault sites. A
+// call takes the code that is there when it begins; no code goes before the program does.
 #pragma once
 
 #include "compiler/codegen/batch.h"

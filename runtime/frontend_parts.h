@@ -40,7 +40,7 @@ FaultSite resolve(const SourceSet& sources, const codegen::FaultPlaceInfo& place
 codegen::Options codegen_options(const CompileOptions& options);
 /// The same for code that runs in this process.
 codegen::Options jit_options(const CompileOptions& options);
-/// For code that is to be there soon, whatever its speed; of the same bits and the same width.
+/// For code that is to be there soon, whatever its speed; of the same bits.
 void make_quick(codegen::Options& options);
 
 } // namespace moonshade

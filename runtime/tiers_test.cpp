@@ -34,7 +34,6 @@ TEST(Tiers, GiveTheSameBitsWheneverTheCodeIsReplaced) {
       ASSERT_TRUE(tiered.program->is_quick());
       EXPECT_TRUE(tiered.program->times().quick);
       const auto shader = instantiated(tiered);
-      EXPECT_EQ(shader->width(), optimised->width());
       const size_t batch = 1 + random() % 97;
       const size_t moment = random() % (1003 / batch + 1);
       size_t done = 0;
@@ -45,6 +44,7 @@ TEST(Tiers, GiveTheSameBitsWheneverTheCodeIsReplaced) {
                 expected)
           << "replaced before batch " << moment << " of " << batch << " points";
       EXPECT_FALSE(tiered.program->is_quick());
+      EXPECT_EQ(shader->width(), optimised->width()); // which the quick code may not have had
     }
   }
 }
