@@ -48,7 +48,12 @@ end
 for k = 0, #points - 2 do
   for i = 0, ROUND - 1 do
     local a, b = k * ROUND + i + 1, k * ROUND + (i + 1) % ROUND + 1
-    local c, d = b + ROUND, a + ROUND
-    io.write(("f %d//%d %d//%d %d//%d %d//%d\n"):format(a, a, d, d, c, c, b, b))
+    local corners = { a, a + ROUND, b + ROUND, b }
+    -- where a ring is a point, two of the corners are one
+    if points[k + 1][1] == 0 then table.remove(corners, 4) end
+    if points[k + 2][1] == 0 then table.remove(corners, 3) end
+    io.write("f")
+    for _, corner in ipairs(corners) do io.write((" %d//%d"):format(corner, corner)) end
+    io.write("\n")
   end
 end

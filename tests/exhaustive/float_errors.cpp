@@ -154,7 +154,7 @@ template <class F> bool check_color(const Options& options, std::string_view fun
       }
     }
   });
-  return report(function, worst, 32);
+  return report(function, worst, 40);
 }
 
 #define FUNCTION(name, symbol, function, type, defaults, traits, parameters, doc) MS_ROW(symbol, function, type)
