@@ -1,9 +1,9 @@
 -- cloud.lua: weather in a thin shell around a planet of radius 1
 local cover     = param("cover", 0.46, { min = 0, max = 1, doc = "share of the sky that is overcast" })
-local thickness = param("thickness", 130, { min = 0, max = 5000, doc = "extinction of the densest cloud" })
+local thickness = param("thickness", 190, { min = 0, max = 5000, doc = "extinction of the densest cloud" })
 
 local FLOOR <const> = 1.012
-local TOP   <const> = 1.05
+local TOP   <const> = 1.034
 
 function density(p)
   local r = length(p)
