@@ -236,14 +236,14 @@ std::shared_ptr<const Compiled> make_printing_code(const Compiled& compiled) {
 
 std::unique_ptr<const Code> load_code(codegen::CodeInfo info, const std::string& object, std::string& error) {
   auto code = std::make_unique<Code>();
-  code->jit = JitCode::load(object);
-  error = code->jit->error();
+  const JitCode& jit = code->jit.emplace(JitCode::load(object));
+  error = jit.error();
   for (const codegen::EntryCode& entry : info.entries) {
-    code->kernels.push_back(reinterpret_cast<codegen::Kernel>(code->jit->function(entry.symbol)));
+    code->kernels.push_back(reinterpret_cast<codegen::Kernel>(jit.function(entry.symbol)));
     if (code->kernels.back() == nullptr && error.empty()) error = "the code of '" + entry.symbol + "' cannot be linked";
   }
   if (!info.init_symbol.empty()) {
-    code->init = reinterpret_cast<codegen::Init>(code->jit->function(info.init_symbol));
+    code->init = reinterpret_cast<codegen::Init>(jit.function(info.init_symbol));
     if (code->init == nullptr && error.empty()) error = "the code of the top level cannot be linked";
   }
   code->info = std::move(info);

@@ -29,11 +29,12 @@ public:
     for (size_t i = 0; i < homes_.size(); ++i) {
       if (homes_[i].empty()) continue;
       facts_.homes[i] = homes_[i].back();
-      if (!reads_[i]) continue;
+      const auto& reads = reads_[i];
+      if (!reads) continue;
       // The outermost loop within the home.
       const auto inside = [&](const OpenLoop& loop) { return loop.depth >= homes_[i].size(); };
-      const auto loop = std::ranges::find_if(*reads_[i], inside);
-      if (loop != reads_[i]->end()) facts_.last_loops[i] = loop->label;
+      const auto loop = std::ranges::find_if(*reads, inside);
+      if (loop != reads->end()) facts_.last_loops[i] = loop->label;
     }
   }
 
@@ -94,8 +95,8 @@ private:
   }
 
   void bypass(ir::LabelId target) {
-    for (size_t i = targets_.size(); i-- > 0 && targets_[i] != target;)
-      facts_.labels[targets_[i]].bypassed = true;
+    for (size_t i = targets_.size(); i > 0 && targets_[i - 1] != target; --i)
+      facts_.labels[targets_[i - 1]].bypassed = true;
   }
 
   void read(ir::VariableId variable, const std::vector<OpenLoop>& loops) {
