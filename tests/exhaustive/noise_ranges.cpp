@@ -5,22 +5,7 @@
 
 #include <cmath>
 #include <cstdio>
-#include <cstring>
 #include <string>
-
-// What the bitcode brings with it (gather.ll.in), for native code.
-extern "C" {
-void moonshade_gather_w8(void* result, const void* table, const void* offsets) {
-  for (int i = 0; i < 8; ++i)
-    std::memcpy(static_cast<char*>(result) + 4 * i,
-                static_cast<const char*>(table) + static_cast<const uint32_t*>(offsets)[i], 4);
-}
-void moonshade_gather_w16(void* result, const void* table, const void* offsets) {
-  for (int i = 0; i < 16; ++i)
-    std::memcpy(static_cast<char*>(result) + 4 * i,
-                static_cast<const char*>(table) + static_cast<const uint32_t*>(offsets)[i], 4);
-}
-}
 
 namespace moonshade::exhaustive {
 namespace {
