@@ -91,21 +91,30 @@ template <class L> MS_INLINE Vec<3, L> oklab2rgb(Vec<3, L> lab) {
 }
 
 /// The colour of a glowing black body, its greatest component 1, components outside Rec. 709 cut to 0. Kelvins are
-/// clamped to 1000..40000.
+/// clamped to 1000..40000. Floats go through doubles, where terms cancel.
 template <class L> MS_INLINE Vec<3, L> blackbody(L kelvins) {
-  L t = clamp(kelvins, constant<L>(1000), constant<L>(40000)), zero = constant<L>(0), one = constant<L>(1);
-  L u =
-      madd(madd(t, 1.28641212e-7, 1.54118254e-4), t, 0.860117757) / madd(madd(t, 7.08145163e-7, 8.42420235e-4), t, one);
-  L v = madd(madd(t, 4.20481691e-8, 4.22806245e-5), t, 0.317398726) /
-        madd(madd(t, 1.61456053e-7, -2.89741816e-5), t, one);
-  // X, Y and Z over Y, from CIE 1960 u and v: X = 3u / 2v, Z = (4 - u - 10v) / 2v.
-  L half = constant<L>(0.5) / v;
-  Vec<3, L> xyz = {{u * constant<L>(3) * half, one, (constant<L>(4) - u - v * constant<L>(10)) * half}};
-  L r = max(weighted(xyz, 3.2404542, -1.5371385, -0.4985314), zero);
-  L g = max(weighted(xyz, -0.9692660, 1.8760108, 0.0415560), zero);
-  L b = max(weighted(xyz, 0.0556434, -0.2040259, 1.0572252), zero);
-  L scale = one / max(max(r, g), b);
-  return {{r * scale, g * scale, b * scale}};
+  if constexpr (!is_dual<L> && is_f32<L>) {
+    return map<3, L>([](auto x) __attribute__((always_inline)) { return convert<L>(x); },
+                     blackbody(convert<Wide<double, width_of<L>>>(kelvins)));
+  } else {
+    L t = clamp(kelvins, constant<L>(1000), constant<L>(40000)), zero = constant<L>(0);
+    auto polynomial = [t](double a, double b, double c, double d, double e) __attribute__((always_inline)) {
+      return madd(madd(madd(madd(t, a, constant<L>(b)), t, c), t, d), t, e);
+    };
+    // The CIE 1960 u and v of a black body are quotients of quadratics in t, X = 3u / 2v and Z = (4 - u - 10v) / 2v:
+    // times all denominators each component is a polynomial.
+    L r = polynomial(4.117263431e-14, 1.108104339e-10, 1.580847751e-6, 2.90045368e-4, 7.402747413);
+    L g = polynomial(5.709448707e-14, 1.748828101e-10, 3.737207301e-7, 7.873475895e-4, -1.311579086);
+    L b = polynomial(1.380653646e-13, -2.481204667e-10, 1.926719419e-8, -7.524269148e-5, -0.02199217568);
+    L scale = constant<L>(1) / max(max(r, g), b);
+    Vec<3, L> color = {{r * scale, max(g, zero) * scale, max(b, zero) * scale}};
+    if constexpr (is_dual<L>) { // the very value of plain lanes
+      Vec<3, typename L::Lane> value = blackbody(kelvins.v);
+      for (int i = 0; i < 3; ++i)
+        color[i].v = value[i];
+    }
+    return color;
+  }
 }
 
 /// a + b cos(2 pi (c t + d)): period 1 where c is integral.

@@ -89,7 +89,7 @@ def check_page(page, root, environment, problems):
     count = 0
     with tempfile.TemporaryDirectory() as scratch:
         for shader in (root / 'shaders').glob('*'):
-            if shader.suffix in ('.lua', '.obj', '.mtl'):
+            if shader.suffix in ('.lua', '.obj', '.mtl', '.png'):
                 shutil.copy(shader, scratch)
         for line, language, comments, text in blocks(page):
             where = f'{page.relative_to(root)}:{line}'

@@ -154,7 +154,7 @@ template <class F> bool check_color(const Options& options, std::string_view fun
       }
     }
   });
-  return report(function, worst, 40);
+  return report(function, worst, 1);
 }
 
 #define FUNCTION(name, symbol, function, type, defaults, traits, parameters, doc) MS_ROW(symbol, function, type)
