@@ -10,18 +10,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <numbers>
 #include <random>
 #include <vector>
-
-// What the bitcode brings with it (gather.ll.in), for native code.
-extern "C" void moonshade_gather_w8(void* result, const void* table, const void* offsets) {
-  for (int i = 0; i < 8; ++i)
-    std::memcpy(static_cast<char*>(result) + 4 * i,
-                static_cast<const char*>(table) + static_cast<const uint32_t*>(offsets)[i], 4);
-}
 
 namespace moonshade::stdlib {
 namespace {
@@ -154,6 +146,23 @@ TEST(PeriodicNoise, HoldsInFloatToTheEndOfTheRange) {
 }
 
 // Vectors -------------------------------------------------------------------------------------------------------------
+
+/// Sums of coordinates must not round: in the plane they put the point off the slice, where the range is another.
+TEST(PeriodicNoise, IsInFloatFarAwayWhatItIsInDouble) {
+  std::mt19937 random(5);
+  for (int i = 0; i < 20000; ++i) {
+    Vec<3, double> p;
+    Vec<3, float> q;
+    for (int axis = 0; axis < 3; ++axis)
+      p[axis] = q[axis] = float(random() % (1u << 24)) / 0x1p14f;
+    const Vec<3, double> period = vector_of<3, double>(64);
+    const Vec<3, float> float_period = vector_of<3, float>(64);
+    ASSERT_NEAR((pnoise<float>(q, float_period)), (pnoise<double>(p, period)), 1e-5) << p[0] << " " << p[1];
+    ASSERT_NEAR((pnoise<float>(Vec<2, float>{{q[0], q[1]}}, Vec<2, float>{{64, 64}})),
+                (pnoise<double>(Vec<2, double>{{p[0], p[1]}}, Vec<2, double>{{64, 64}})), 1e-5)
+        << p[0] << " " << p[1];
+  }
+}
 
 TEST(VectorNoise, BeginsWithTheNoiseAndItsPartsAreIndependent) {
   Points points;

@@ -271,18 +271,84 @@ template <class L, int N> MS_INLINE Vec<N, L> cell_site(const Vec<N, L>& cell, L
   return site;
 }
 
-/// Calls f(offset) for the cells around a cell, `reach` in each direction.
-template <class L, int N, class F> MS_INLINE void for_each_neighbour(int reach, F f) {
-  const int side = 2 * reach + 1, count = N == 2 ? side * side : side * side * side;
-#pragma clang loop unroll(disable)
-  for (int i = 0; i < count; ++i) {
-    Vec<N, L> offset;
-    int rest = i;
-#pragma clang loop unroll(full)
-    for (int k = 0; k < N; ++k, rest /= side)
-      offset[k] = L(Scalar<L>(rest % side - reach));
-    f(offset);
+/// The steps from a cell to all others at most `Reach` away along each axis, the nearest first.
+template <int N, int Reach> struct CellSteps {
+  static constexpr int side = 2 * Reach + 1;
+  static constexpr int count = (N == 2 ? side * side : side * side * side) - 1;
+  int8_t step[count][N] = {};
+
+  constexpr CellSteps() {
+    for (int square = 1, next = 0; square <= N * Reach * Reach; ++square)
+      for (int i = 0; i <= count; ++i) {
+        int step_of[N] = {}, sum = 0;
+        for (int k = 0, rest = i; k < N; ++k, rest /= side) {
+          step_of[k] = rest % side - Reach;
+          sum += step_of[k] * step_of[k];
+        }
+        if (sum != square) continue;
+        for (int k = 0; k < N; ++k)
+          step[next][k] = int8_t(step_of[k]);
+        ++next;
+      }
   }
+};
+template <int N, int Reach> static constexpr CellSteps<N, Reach> kCellSteps;
+
+/// Comparisons that leave cells out: by more than distances round, as on no lane it may matter what others need.
+inline constexpr double kAllOfIt = 1 + 0x1p-10;
+
+/// The nearest site, as a vector from the point, and the cell that it belongs to.
+template <class L, int N> struct NearestSite {
+  Vec<N, L> way, cell;
+};
+template <class L, int N> MS_INLINE NearestSite<L, N> nearest_site(const Vec<N, L>& p, L jitter) {
+  using P = ValueLane<L>;
+  const P half = constant<P>(0.5), one = constant<P>(1);
+  Vec<N, L> home = map<N, L>([](L x) __attribute__((always_inline)) { return floor(x); }, p);
+  L nearest = joined(constant<L>(1e30), p, jitter);
+  NearestSite<L, N> found = {joined(home * constant<L>(0), p, jitter), home};
+  const auto look = [&](const Vec<N, L>& cell) __attribute__((always_inline)) {
+    Vec<N, L> to = cell_site(cell, jitter) - p;
+    L square = dot(to, to);
+    auto nearer = less(square, nearest);
+    nearest = select(nearer, square, nearest);
+    found = {select<N, L>(nearer, to, found.way), select<N, L>(nearer, cell, found.cell)};
+  };
+  // Along each axis home, the neighbour on the side where the point lies, and the other one.
+  P places[N][3], other_side = one;
+#pragma clang loop unroll(full)
+  for (int i = 0; i < N; ++i) {
+    P at = value_lane(home[i]), place = value_lane(p[i]) - at, side = select(less(place, half), -one, one);
+    places[i][0] = at, places[i][1] = at + side, places[i][2] = at - side;
+    other_side = min(other_side, max(place, one - place));
+  }
+  const auto look_at = [&](const int(&side)[N]) __attribute__((always_inline)) {
+    Vec<N, L> cell;
+#pragma clang loop unroll(full)
+    for (int i = 0; i < N; ++i)
+      cell[i] = without_slope<L>(places[i][side[i]]);
+    look(cell);
+  };
+#pragma clang loop unroll(disable)
+  for (int n = 0; n < 1 << N; ++n) {
+    int side[N];
+    for (int i = 0; i < N; ++i)
+      side[i] = n >> i & 1;
+    look_at(side);
+  }
+  if (any(less(other_side * other_side, value_lane(nearest) * constant<P>(kAllOfIt)))) {
+#pragma clang loop unroll(disable)
+    for (int n = 0; n < (N == 2 ? 9 : 27); ++n) {
+      int side[N];
+      bool is_other = false;
+      for (int i = 0, rest = n; i < N; ++i, rest /= 3) {
+        side[i] = rest % 3;
+        is_other |= side[i] == 2;
+      }
+      if (is_other) look_at(side);
+    }
+  }
+  return found;
 }
 
 /// A border between two cells: how far away, and the direction there.
@@ -306,32 +372,46 @@ template <class L, int N> MS_INLINE L beyond_border(const Border<L, N>& border, 
 /// The cell at a point: what a narrow square sees of it, its number and the distance to its nearest border.
 template <class L, int N> MS_INLINE Cell<L> voronoi_cell(const Vec<N, L>& p, L width, L border, L jitter) {
   L zero = constant<L>(0), half = constant<L>(0.5), one = constant<L>(1);
-  Vec<N, L> home = map<N, L>([](L x) __attribute__((always_inline)) { return floor(x); }, p);
-  // The nearest site, as a vector from the point, and the cell that it belongs to.
-  L nearest = joined(constant<L>(1e30), p, jitter);
-  Vec<N, L> to_nearest = joined(home * zero, p, jitter), nearest_cell = home;
-  for_each_neighbour<L, N>(1, [&](const Vec<N, L>& offset) __attribute__((always_inline)) {
-    Vec<N, L> cell = home + offset, to = cell_site(cell, jitter) - p;
-    L square = dot(to, to);
-    auto nearer = less(square, nearest);
-    nearest = select(nearer, square, nearest);
-    to_nearest = select<N, L>(nearer, to, to_nearest);
-    nearest_cell = select<N, L>(nearer, cell, nearest_cell);
-  });
+  const NearestSite<L, N> nearest = nearest_site<L, N>(p, jitter);
   // The nearest border, and where there is anything to filter the next one: half way to another site, across the line
   // between the two.
   const bool filtered = is_dual<L> || any(!less_equal(width, zero));
   L far = joined(constant<L>(1e30), p, jitter);
-  Vec<N, L> nowhere = joined(home * zero, p, jitter);
+  Vec<N, L> nowhere = joined(nearest.way * zero, p, jitter);
   Border<L, N> first = {far, nowhere}, second = first;
   Vec<N, L> first_site = nowhere, second_site = nowhere;
-  for_each_neighbour<L, N>(N == 2 ? 2 : 1, [&](const Vec<N, L>& offset) __attribute__((always_inline)) {
-    Vec<N, L> to = cell_site(nearest_cell + offset, jitter) - p, across = to - to_nearest;
-    L square = dot(across, across), inverse = one / sqrt(square);
-    Border<L, N> here = {dot(to + to_nearest, across) * half * inverse, across * inverse};
-    auto is_border = less(constant<L>(1e-12), square), nearer = is_border & less(here.distance, first.distance);
+  // A cell's distance along each axis, squared. Its border is at least half as far as it is further than the nearest
+  // site.
+  using P = ValueLane<L>;
+  constexpr int kReach = 2;
+  P away[N][2 * kReach + 1], own = constant<P>(0);
+#pragma clang loop unroll(full)
+  for (int i = 0; i < N; ++i) {
+    P begin = value_lane(nearest.cell[i]) - value_lane(p[i]), way = value_lane(nearest.way[i]);
+    own = madd(way, way, own);
+    for (int step = -kReach; step <= kReach; ++step) {
+      P low = begin + constant<P>(step), least = max(max(low, -(low + constant<P>(1))), constant<P>(0));
+      away[i][step + kReach] = least * least;
+    }
+  }
+  own = sqrt(own);
+#pragma clang loop unroll(disable)
+  for (const auto& step : kCellSteps<N, kReach>.step) {
+    Vec<N, L> cell;
+    P square = constant<P>(0);
+#pragma clang loop unroll(full)
+    for (int i = 0; i < N; ++i) {
+      cell[i] = nearest.cell[i] + L(Scalar<L>(step[i]));
+      square = square + away[i][step[i] + kReach];
+    }
+    P horizon = madd(value_lane(filtered ? second.distance : first.distance), 2.0, own);
+    if (!any(less(square, horizon * horizon * constant<P>(kAllOfIt)))) continue;
+    Vec<N, L> to = cell_site(cell, jitter) - p, across = to - nearest.way;
+    L inverse = one / sqrt(dot(across, across));
+    Border<L, N> here = {dot(to + nearest.way, across) * half * inverse, across * inverse};
+    auto nearer = less(here.distance, first.distance);
     if (filtered) {
-      auto next = is_border & less(here.distance, second.distance);
+      auto next = less(here.distance, second.distance);
       second.distance = select(nearer, first.distance, select(next, here.distance, second.distance));
       second.direction = select<N, L>(nearer, first.direction, select<N, L>(next, here.direction, second.direction));
       second_site = select<N, L>(nearer, first_site, select<N, L>(next, to, second_site));
@@ -339,7 +419,7 @@ template <class L, int N> MS_INLINE Cell<L> voronoi_cell(const Vec<N, L>& p, L w
       first_site = select<N, L>(nearer, to, first_site);
     }
     first.distance = select(nearer, here.distance, first.distance);
-  });
+  }
   L side = border * half, edge = first.distance - side, value = filtered_step(edge, zero, zero);
   value = joined(value, p, width, border, jitter);
   if (filtered) {
@@ -354,7 +434,7 @@ template <class L, int N> MS_INLINE Cell<L> voronoi_cell(const Vec<N, L>& p, L w
     L seen = (one - strip(first) * h2) * (one - strip(second) * h1) * (one - strip(third) * nmadd(h1 + h2, 0.5, one));
     value = select(less_equal(width, zero), value, seen);
   }
-  return {value, hash(nearest_cell), edge};
+  return {value, hash(nearest.cell), edge};
 }
 
 /// The nearest of random points, one in each unit square or cube, and the distance to the border with the next. In the
@@ -362,6 +442,7 @@ template <class L, int N> MS_INLINE Cell<L> voronoi_cell(const Vec<N, L>& p, L w
 template <class L, int N> MS_INLINE Cell<L> voronoi(Vec<N, L> p, L width, L border, L jitter) {
   L zero = constant<L>(0), one = constant<L>(1);
   width = min(abs(width), constant<L>(4096));
+  jitter = saturate(jitter); // beyond, sites would leave their cells, by which the search finds them
   L near = joined(zero, p, width, border, jitter), id = zero, edge = joined(zero, p, border, jitter), sum = near;
   // The square itself, and its quarters where they are wanted.
   auto wide = less(constant<L>(0.06), width);

@@ -173,24 +173,48 @@ TEST(Cells, DistancesAreZeroOnTheEdge) {
   }
 }
 
-/// The nearest border of the plane's cells, by looking at every site around.
-TEST(Cells, BordersOfVoronoiAreTheNearest) {
+/// The nearest border, by going there: nowhere nearer is another cell, and just beyond it is one.
+template <int N, class Direction> void expect_nearest_borders(int points, int directions, Direction direction) {
   Sampler sampler;
-  for (int i = 0; i < 300; ++i) {
-    const Vec2 p = sampler.point();
-    const double edge = voronoi<double, 2>(p, 0, 0, 1).third;
-    // Nowhere nearer than the border is another cell, and just beyond it is one.
-    const double id = voronoi<double, 2>(p, 0, 0, 1).second;
+  for (int i = 0; i < points; ++i) {
+    Vec<N, double> p;
+    for (int axis = 0; axis < N; ++axis)
+      p[axis] = sampler.uniform(-60, 60);
+    const auto at = voronoi<double, N>(p, 0, 0, 1);
     bool beyond = false;
-    for (int k = 0; k < 64; ++k) {
-      const double angle = k * 2 * M_PI / 64;
-      const auto at = [&](double r) {
-        return voronoi<double, 2>(Vec2{{p[0] + r * std::cos(angle), p[1] + r * std::sin(angle)}}, 0, 0, 1).second;
+    for (int k = 0; k < directions; ++k) {
+      const Vec<N, double> way = direction(k);
+      const auto cell_at = [&](double r) {
+        Vec<N, double> q = p;
+        for (int axis = 0; axis < N; ++axis)
+          q[axis] += r * way[axis];
+        return voronoi<double, N>(q, 0, 0, 1).second;
       };
-      EXPECT_EQ(at(edge * 0.99), id);
-      beyond |= at(edge * 1.05 + 1e-9) != id;
+      EXPECT_EQ(cell_at(at.third * 0.99), at.second);
+      beyond |= cell_at(at.third * 1.05 + 1e-9) != at.second;
     }
     EXPECT_TRUE(beyond);
+  }
+}
+TEST(Cells, BordersOfVoronoiAreTheNearest) {
+  expect_nearest_borders<2>(300, 64,
+                            [](int k) { return Vec2{{std::cos(k * 2 * M_PI / 64), std::sin(k * 2 * M_PI / 64)}}; });
+}
+/// Those of space, too, where two cells with a border may lie two steps apart.
+TEST(Cells, BordersOfVoronoiOfSpaceAreTheNearest) {
+  constexpr int kDirections = 500;
+  expect_nearest_borders<3>(400, kDirections, [](int k) { // a spiral over the sphere
+    const double z = 1 - (2.0 * k + 1) / kDirections, r = std::sqrt(1 - z * z), turn = k * 2.399963229728653;
+    return Vec3{{r * std::cos(turn), r * std::sin(turn), z}};
+  });
+}
+/// Sites stay in their cells, whatever is asked.
+TEST(Cells, JitterOfVoronoiIsClamped) {
+  Sampler sampler;
+  for (int i = 0; i < 100; ++i) {
+    const Vec2 p = sampler.point();
+    EXPECT_EQ((voronoi<double, 2>(p, 0, 0, 3).third), (voronoi<double, 2>(p, 0, 0, 1).third));
+    EXPECT_EQ((voronoi<double, 2>(p, 0, 0, -1).third), (voronoi<double, 2>(p, 0, 0, 0).third));
   }
 }
 

@@ -42,11 +42,14 @@ template <class L> struct HalfAxis {
 /// these are y + z, x + z and x + y.
 template <class L, class S>
 MS_INLINE void add_periodic_noise(const Vec<3, L>& p, const Periodic<3, L>& lattice, S& sum) {
-  L u = p[1] + p[2], v = p[0] + p[2], w = p[0] + p[1];
+  // By the fractions, so that far from the origin sums of coordinates lose nothing.
+  const Vec<3, L> whole = map<3, L>([](L x) __attribute__((always_inline)) { return floor(x); }, p), rest = p - whole;
+  L u = rest[1] + rest[2], v = rest[0] + rest[2], w = rest[0] + rest[1];
   L i = floor(u), j = floor(v), k = floor(w), half = constant<L>(0.5), one = constant<L>(1);
   L a = u - i, b = v - j, c = w - k;
-  const HalfAxis<L> axes[3] = {
-      {j + k - i, lattice.period[0], 0}, {i + k - j, lattice.period[1], 1}, {i + j - k, lattice.period[2], 2}};
+  const HalfAxis<L> axes[3] = {{madd(whole[0], 2.0, j + k - i), lattice.period[0], 0},
+                               {madd(whole[1], 2.0, i + k - j), lattice.period[1], 1},
+                               {madd(whole[2], 2.0, i + j - k), lattice.period[2], 2}};
   const Vec<3, L> d = {{(b + c - a) * half, (a + c - b) * half, (a + b - c) * half}};
 
   // A corner by its steps in halves.

@@ -5,10 +5,11 @@
 // Metrics by the exponent of their norm: 2 Euclidean, 1 Manhattan, math.huge Chebyshev (others count as the nearest of
 // these: below 1.5, below 3, above). F1 and F2 are continuous, with kinks where the nearest point changes.
 //
-// The search: the 3^N cells around the point in rows along x, leaving out rows that are further away than F2 (F1, where
-// nobody asks for F2) on every lane; then, where F2 reaches beyond those cells, the next layer around them, with which
-// Euclidean and Chebyshev distances are exact (Manhattan's are but for a chance below 1e-7). Ranges in N dimensions: F1
-// in 0..sqrt(N), N, 1 for the three metrics; the id does not depend on the metric's search order.
+// The search: the cell of the point and its neighbours on the sides where the point lies nearer, 2^N cells; then, where
+// F2 (F1, where nobody asks for F2) reaches further on any lane, the rest of the 3^N cells around it, in rows along x,
+// of which those are left out that it reaches on no lane; then likewise the next layer, with which Euclidean and
+// Chebyshev distances are exact (Manhattan's are but for a chance below 1e-7). Ranges in N dimensions: F1 in
+// 0..sqrt(N), N, 1 for the three metrics; the id does not depend on the metric's search order.
 //
 // Coordinates to about 2^22 (float) or 2^50 (double) have their own cells. NaN and infinity give NaN.
 #pragma once
@@ -79,29 +80,18 @@ template <int N, class U> MS_INLINE U feature_bits(U hash, int component) {
   return component == 0 ? hash >> shift : (hash >> shift) & mask;
 }
 
-/// The cells of the rows of a layer: the other axes' steps, the innermost first, nearest rows first.
-template <int N, int Reach> struct WorleyRows {
-  static constexpr int side = 2 * Reach + 1;
-  static constexpr int count = N == 1 ? 1 : N == 2 ? side : N == 3 ? side * side : side * side * side;
+/// The steps away from a row of cells along x, of the rows of a layer.
+template <int N, int Side> struct WorleyRows {
+  static constexpr int count = N == 1 ? 1 : N == 2 ? Side : N == 3 ? Side * Side : Side * Side * Side;
   int8_t step[count][3] = {};
 
   constexpr WorleyRows() {
-    int next = 0;
-    for (int square = 0; square <= 3 * Reach * Reach; ++square)
-      for (int w = -Reach; w <= Reach; ++w)
-        for (int z = -Reach; z <= Reach; ++z)
-          for (int y = -Reach; y <= Reach; ++y)
-            if (x_row(y, z, w) && y * y + z * z + w * w == square) {
-              step[next][0] = int8_t(y);
-              step[next][1] = int8_t(z);
-              step[next++][2] = int8_t(w);
-            }
-  }
-  static constexpr bool x_row(int y, int z, int w) {
-    return (N > 1 || y == 0) && (N > 2 || z == 0) && (N > 3 || w == 0);
+    for (int row = 0; row < count; ++row)
+      for (int axis = 0, rest = row; axis < 3; ++axis, rest /= Side)
+        step[row][axis] = int8_t(rest % Side);
   }
 };
-template <int N, int Reach> static constexpr WorleyRows<N, Reach> kWorleyRows;
+template <int N, int Side> static constexpr WorleyRows<N, Side> kWorleyRows;
 
 template <class L, int N, class Lattice, class Metric, bool Tracked> class WorleySearch {
 public:
@@ -111,57 +101,125 @@ public:
         cell_(map<N, L>([](L x) __attribute__((always_inline)) { return floor(x); }, p)), place_(p - cell_) {}
 
   MS_INLINE NearestTwo<L, N, Tracked> run() {
-    for (int r = 0; r < kWorleyRows<N, 1>.count; ++r)
-      row(kWorleyRows<N, 1>.step[r], 1, 0);
-    // Beyond these cells the nearest place is along an axis.
-    Vec<N, L> along = {};
-    along[0] = constant<L>(1) + nearest_side(0);
-#pragma clang loop unroll(full)
-    for (int i = 1; i < N; ++i)
-      along[0] = min(along[0], constant<L>(1) + nearest_side(i));
-    if (any(less(metric_.measure(along), horizon())))
-      for (int r = 0; r < kWorleyRows<N, 2>.count; ++r) {
-        const int8_t(&step)[3] = kWorleyRows<N, 2>.step[r];
-        const bool inner = step[0] * step[0] < 4 && step[1] * step[1] < 4 && step[2] * step[2] < 4;
-        row(step, 2, inner ? 2 : 0);
-      }
+    nearest_cells();
+    if (reaches_beyond(0)) {
+      other_cells();
+      if (reaches_beyond(1)) next_layer();
+    }
     return found_;
   }
 
 private:
-  /// What is further away does not count.
-  MS_INLINE L horizon() const { return both_ ? found_.second : found_.first; }
-  MS_INLINE L nearest_side(int axis) const { return min(place_[axis], constant<L>(1) - place_[axis]); }
+  /// Cells at one place along an axis: their part of the hash, where features begin, and how far away they are.
+  struct Side {
+    UInt32<L> hash;
+    L begin, least;
+  };
 
-  /// The cells from..reach away, both ways, along x of a row, if it is near enough on any lane.
-  MS_INLINE void row(const int8_t (&step)[3], int reach, int from) {
-    Vec<N, L> least = {};
-    UInt32<L> hash = UInt32<L>(0u);
-    Vec<N, L> corner = -place_;
+  /// What is further away does not count, by more than distances round: on no lane may it matter what others need.
+  MS_INLINE L horizon() const { return (both_ ? found_.second : found_.first) * constant<L>(1 + 0x1p-12); }
+  MS_INLINE static constexpr double unit() { return 1.0 / (1u << kFeatureBits<N>); }
+
+  /// The horizon is further than the nearest place `cells` cells beyond the farther neighbours' sides.
+  MS_INLINE bool reaches_beyond(int cells) const {
+    Vec<N, L> along = {};
 #pragma clang loop unroll(full)
-    for (int i = 1; i < N; ++i) {
-      corner[i] = constant<L>(step[i - 1]) - place_[i];
-      least[i] = max(max(corner[i], -(corner[i] + constant<L>(1))), constant<L>(0));
-      hash ^= lattice_.at(cell_[i], i, step[i - 1]);
+    for (int i = 0; i < N; ++i) {
+      L nearer = min(place_[i], constant<L>(1) - place_[i]);
+      L side = cells == 0 ? constant<L>(1) - nearer : constant<L>(1) + nearer;
+      along[0] = i == 0 ? side : min(along[0], side);
     }
-    if (N > 1 && !any(less(metric_.measure(least), horizon()))) return;
-    if (from == 0) cell(hash, corner, 0);
-    for (int x = from == 0 ? 1 : from; x <= reach; ++x) {
-      cell(hash, corner, x);
-      cell(hash, corner, -x);
+    return any(less(metric_.measure(along), horizon()));
+  }
+
+  /// The cell of the point and, on the side where it lies, its neighbours.
+  MS_INLINE void nearest_cells() {
+    const L one = constant<L>(1), half = constant<L>(0.5), first = constant<L>(0.5 * unit());
+#pragma clang loop unroll(full)
+    for (int i = 0; i < N; ++i) {
+      auto below = less(place_[i], half);
+      UInt32<L> before = lattice_.at(cell_[i], i, -1), after = lattice_.at(cell_[i], i, 1);
+      L from_begin = place_[i], from_end = one - place_[i];
+      L begin_before = constant<L>(0.5 * unit() - 1) - place_[i],
+        begin_after = constant<L>(0.5 * unit() + 1) - place_[i];
+      sides_[i][0] = {lattice_.at(cell_[i], i, 0), first - place_[i], constant<L>(0)};
+      sides_[i][1] = {select(below, before, after), select(below, begin_before, begin_after),
+                      min(from_begin, from_end)};
+      sides_[i][2] = {select(below, after, before), select(below, begin_after, begin_before),
+                      max(from_begin, from_end)};
+    }
+#pragma clang loop unroll_count(N < 4 ? 1 << N : 1)
+    for (int n = 0; n < 1 << N; ++n) {
+      const Side* sides[N];
+      for (int i = 0; i < N; ++i)
+        sides[i] = &sides_[i][n >> i & 1];
+      cell(sides);
     }
   }
 
-  MS_INLINE void cell(UInt32<L> row_hash, const Vec<N, L>& corner, int x) {
-    constexpr double unit = 1.0 / (1u << kFeatureBits<N>);
-    UInt32<L> square = lattice_hash(row_hash ^ lattice_.at(cell_[0], 0, x));
-    UInt32<L> hash = (square ^ (square >> 15u)) * 0x2c1b3c6du;
+  /// The rest of the 3^N cells around the point.
+  MS_INLINE void other_cells() {
+#pragma clang loop unroll(disable)
+    for (int r = 0; r < kWorleyRows<N, 3>.count; ++r) {
+      const int8_t(&step)[3] = kWorleyRows<N, 3>.step[r];
+      // Of a row beside the point the nearer two are done.
+      const bool nearer = step[0] < 2 && step[1] < 2 && step[2] < 2;
+      const Side* sides[N];
+      Vec<N, L> least = {};
+      for (int i = 1; i < N; ++i) {
+        sides[i] = &sides_[i][step[i - 1]];
+        least[i] = sides[i]->least;
+      }
+      least[0] = nearer ? sides_[0][2].least : constant<L>(0);
+      if (!any(less(metric_.measure(least), horizon()))) continue;
+      for (int x = nearer ? 2 : 0; x < 3; ++x) {
+        sides[0] = &sides_[0][x];
+        cell(sides);
+      }
+    }
+  }
+
+  /// The cells two steps away.
+  MS_INLINE void next_layer() {
+#pragma clang loop unroll(disable)
+    for (int r = 0; r < kWorleyRows<N, 5>.count; ++r) {
+      const int8_t(&step)[3] = kWorleyRows<N, 5>.step[r];
+      Side row[N];
+      const Side* sides[N];
+      Vec<N, L> least = {};
+      bool inner = true;
+      for (int i = 1; i < N; ++i) {
+        row[i] = side(i, step[i - 1] - 2);
+        sides[i] = &row[i];
+        least[i] = row[i].least;
+        inner &= step[i - 1] > 0 && step[i - 1] < 4;
+      }
+      least[0] = inner ? constant<L>(1) + min(place_[0], constant<L>(1) - place_[0]) : constant<L>(0);
+      if (!any(less(metric_.measure(least), horizon()))) continue;
+      for (int x = -2; x <= 2; x += inner ? 4 : 1) {
+        row[0] = side(0, x);
+        sides[0] = &row[0];
+        cell(sides);
+      }
+    }
+  }
+  MS_INLINE Side side(int axis, int step) const {
+    L corner = constant<L>(step) - place_[axis];
+    return {lattice_.at(cell_[axis], axis, step), constant<L>(step + 0.5 * unit()) - place_[axis],
+            max(max(corner, -(corner + constant<L>(1))), constant<L>(0))};
+  }
+
+  MS_INLINE void cell(const Side* const (&sides)[N]) {
+    UInt32<L> hash = sides[0]->hash;
+#pragma clang loop unroll(full)
+    for (int i = 1; i < N; ++i)
+      hash ^= sides[i]->hash;
+    UInt32<L> square = lattice_hash(hash);
+    hash = (square ^ (square >> 15u)) * 0x2c1b3c6du;
     Vec<N, L> way;
 #pragma clang loop unroll(full)
-    for (int i = 0; i < N; ++i) {
-      L base = corner[i] + constant<L>((i == 0 ? x : 0) + 0.5 * unit);
-      way[i] = madd(convert<L>(bit_cast<Int32<L>>(feature_bits<N>(hash, i))), unit, base);
-    }
+    for (int i = 0; i < N; ++i)
+      way[i] = madd(convert<L>(bit_cast<Int32<L>>(feature_bits<N>(hash, i))), unit(), sides[i]->begin);
     found_.add(metric_.measure(way), hash, way);
   }
 
@@ -169,6 +227,7 @@ private:
   const Metric& metric_;
   const bool both_;
   const Vec<N, L> cell_, place_;
+  Side sides_[N][3]; ///< at home, the nearer neighbour, the farther one
   NearestTwo<L, N, Tracked> found_;
 };
 
