@@ -1,6 +1,7 @@
 // `build`, expressions: values in order of evaluation, calls, and what is evaluated only where Lua does.
 #include "compiler/ir/build_function.h"
 #include "compiler/ir/cost.h"
+#include "compiler/syntax/folded_integer.h"
 #include "stdlib/images.h"
 
 #include <algorithm>
@@ -35,40 +36,6 @@ bool is_two(const Expr& expr) {
   if (const auto* integer = try_as<IntegerExpr>(&inner)) return integer->value == 2;
   if (const auto* number = try_as<NumberExpr>(&inner)) return number->value == 2;
   return false;
-}
-
-/// An integer that stock Lua knows while it compiles: a literal, arithmetic on such, or a `<const>` local given one.
-std::optional<uint64_t> folded_integer(const Expr& expr) {
-  const Expr& inner = without_parens(expr);
-  if (const auto* integer = try_as<IntegerExpr>(&inner)) return static_cast<uint64_t>(integer->value);
-  if (const auto* name = try_as<NameExpr>(&inner))
-    return name->local != nullptr && name->local->constant != nullptr ? folded_integer(*name->local->constant)
-                                                                      : std::nullopt;
-  if (const auto* unary = try_as<UnaryExpr>(&inner)) {
-    const auto operand = folded_integer(*unary->operand);
-    if (!operand || (unary->op != UnaryOp::Neg && unary->op != UnaryOp::BitNot)) return {};
-    return unary->op == UnaryOp::Neg ? 0 - *operand : ~*operand;
-  }
-  const auto* binary = try_as<BinaryExpr>(&inner);
-  if (binary == nullptr) return {};
-  const auto left = folded_integer(*binary->left), right = folded_integer(*binary->right);
-  if (!left || !right) return {};
-  switch (binary->op) {
-  case BinaryOp::Add:
-    return *left + *right;
-  case BinaryOp::Sub:
-    return *left - *right;
-  case BinaryOp::Mul:
-    return *left * *right;
-  case BinaryOp::BitAnd:
-    return *left & *right;
-  case BinaryOp::BitOr:
-    return *left | *right;
-  case BinaryOp::BitXor:
-    return *left ^ *right;
-  default:
-    return {};
-  }
 }
 
 bool converts(ValueType from, ValueType to) {
@@ -324,7 +291,7 @@ ValueId FunctionBuild::arithmetic(const BinaryExpr& expr, const ExpressionFact& 
     return b_.zero(known.type.value);
   }
   // Stock Lua compiles `x - 0` with an integer 0 as `x + 0`: the two differ for x = -0.0.
-  if (op == Op::Sub && known.operand_type == ValueType::Number && folded_integer(*expr.right) == 0u) op = Op::Add;
+  if (op == Op::Sub && known.operand_type == ValueType::Number && folded_integer(*expr.right) == 0) op = Op::Add;
   const sema::Type &left_type = fact(*expr.left).type, &right_type = fact(*expr.right).type;
   if (op == Op::Mul && is_matrix(left_type.value) && (is_matrix(right_type.value) || is_vector(right_type.value))) {
     const ValueId matrix = evaluate(*expr.left);

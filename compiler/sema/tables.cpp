@@ -224,8 +224,10 @@ void Walker::construct_field(Table& table, Table::Field& field, const Expr& valu
       copy_table(type, *context_.inner_table(table, field, value.span), value);
     } else {
       if (type.table->stands_in == nullptr) type.table->stands_in = &field;
-      if (type.table->stands_in != &field) refuse_second_slot(value);
-      give(field.variable, type, value.span, &value, field.name);
+      if (type.table->stands_in == &field)
+        give(field.variable, type, value.span, &value, field.name);
+      else
+        refuse_second_slot(value); // nor placed twice: records of such records would double
     }
   } else if (field.inner != nullptr || is_table(field.variable.type)) {
     refuse_element(table, field, value, type);

@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <iosfwd>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -91,8 +92,8 @@ struct Local {
   bool is_assigned = false;
   /// The function whose local it is.
   Function* function = nullptr;
-  /// The value of a `<const>` local that stock Lua may know while it compiles: of the last name in its statement.
-  const struct Expr* constant = nullptr;
+  /// The value of a `<const>` local where stock Lua knows it while it compiles (folded_integer.h).
+  std::optional<int64_t> folded_integer;
 };
 
 // ---- expressions ---------------------------------------------------------------------------------------------------

@@ -1,4 +1,5 @@
 // Statements (the rules are those of the manual's section 9).
+#include "compiler/syntax/folded_integer.h"
 #include "compiler/syntax/parser_impl.h"
 
 #include <algorithm>
@@ -312,8 +313,9 @@ Stat* Parser::local_stat(Token local_token) {
     scopes_.declare(*local); // not visible in the values
   for (size_t i = 0; i < std::min(locals.size(), values.exprs.size()); ++i)
     if (auto* function = try_as<Function>(values.exprs[i])) function->name = locals[i]->name;
+  // As Lua does, of the last name alone.
   if (locals.size() == values.exprs.size() && locals.back()->attrib == Attrib::Const)
-    locals.back()->constant = values.exprs.back();
+    locals.back()->folded_integer = folded_integer(*values.exprs.back());
   stat->locals = arena_.copy(locals);
   stat->values = values.exprs;
   return finish(stat, values.height);

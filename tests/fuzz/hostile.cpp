@@ -113,6 +113,26 @@ std::string locals_in_blocks(size_t count) {
                }) +
          "return h end";
 }
+/// Each constant is the sum of the one before with itself.
+std::string doubling_constants(size_t count) {
+  return "local c0 <const> = 0\n" +
+         lines(count,
+               [](size_t i) {
+                 const std::string before = name("c", i);
+                 return "local " + name("c", i + 1) + " <const> = " + before + " + " + before;
+               }) +
+         "function height(p) return p.x - " + name("c", count) + " end";
+}
+/// Each record holds the one before twice.
+std::string doubling_records(size_t count) {
+  return "local r0 <const> = { a = 1 }\n" +
+         lines(count,
+               [](size_t i) {
+                 const std::string before = name("r", i);
+                 return "local " + name("r", i + 1) + " <const> = { a = " + before + ", b = " + before + " }";
+               }) +
+         "function height(p) return p.x - " + name("r", count) + ".a.b.a end";
+}
 /// Every variable is live at once: assigned first, read last.
 std::string live_variables(size_t count) {
   std::string text = "function height(p)\nlocal h = 0.0\n";
@@ -493,6 +513,9 @@ std::vector<HostileProgram> hostile_programs() {
       {"Locals10000", [] { return locals(10'000); }},
       {"LocalsInBlocks10000", [] { return locals_in_blocks(10'000); }},
       {"LiveVariables9000", [] { return live_variables(9000); }},
+      {"DoublingConstants60", [] { return doubling_constants(60); }},
+      {"DoublingConstants150", [] { return doubling_constants(150); }},
+      {"DoublingRecords150", [] { return doubling_records(150); }},
       {"Labels5000", [] { return labels(5000); }},
       {"Breaks5000", [] { return breaks(5000); }},
       {"ShortReturns40000", [] { return short_returns(40'000); }},
