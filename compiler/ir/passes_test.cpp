@@ -217,6 +217,29 @@ function f(a: number, b: boolean) -> number, number, number {
 )");
 }
 
+TEST(ShareValues, AConditionIsCheckedOnceOnEachPath) {
+  EXPECT_EQ(after(share_values, {Boolean, Boolean}, {},
+                  [](Builder& b) {
+                    const ValueId bad = b.argument(0);
+                    b.if_else(b.argument(1), b.block([&] { b.fault(bad, FaultCode::Index); }));
+                    b.fault(bad, FaultCode::DivideByZero);
+                    b.fault(bad, FaultCode::DivideByZero);
+                    b.if_else(b.argument(1), b.block([&] { b.fault(bad, FaultCode::Index); }));
+                    b.return_values({});
+                  }),
+            R"(
+function f(a: boolean, b: boolean) {
+  %0: boolean = argument 0
+  %1: boolean = argument 1
+  if %1 {
+    fault %0, index
+  }
+  fault %0, division
+  return
+}
+)");
+}
+
 TEST(ShareValues, ZerosOfBothSignsAreTwo) {
   EXPECT_THAT(
       after(share_values, {}, {Number, Number}, [](Builder& b) { b.return_values({b.number(0.0), b.number(-0.0)}); }),
