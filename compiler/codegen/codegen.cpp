@@ -7,6 +7,7 @@
 #include "compiler/codegen/link.h"
 #include "compiler/codegen/native_calls.h"
 #include "compiler/codegen/pipeline.h"
+#include "compiler/codegen/split_lanes.h"
 #include "compiler/codegen/tables.h"
 #include "compiler/codegen/target.h"
 #include "compiler/codegen/width.h"
@@ -225,8 +226,11 @@ Generated generate(const ir::Module& module, const Options& options) {
   if (!generated.error.empty()) return generated;
   const bool too_costly = module.entries.size() > kManyEntries || has_tangled_function(*parts.module);
   optimize(*parts.module, *parts.target.machine, too_costly ? 0 : options.optimization);
+  const bool costly = too_costly || has_large_function(*parts.module);
+  if (costly) parts.target.machine->setOptLevel(llvm::CodeGenOptLevel::None);
+  if (!costly && options.optimization > 0)
+    split_lanes(*parts.module, generated.info.width, best_width(parts.target, options.precision));
   generated.times.optimize = watch.lap();
-  if (too_costly || has_large_function(*parts.module)) parts.target.machine->setOptLevel(llvm::CodeGenOptLevel::None);
 #ifndef NDEBUG
   if (std::string complaint = verify(*parts.module); !complaint.empty())
     generated.error = "internal error: " + complaint;
