@@ -46,8 +46,8 @@ constexpr unsigned kLargeFunction = 15'000;
 /// exponential time. (Functions written by people stay below a hundred blocks.)
 constexpr size_t kManyBlocks = 1000;
 constexpr unsigned kDeepLoops = 12;
-/// Blocks longer than this are cut where code is generated at level 0. Selection works on a block at a time and looks, at
-/// each fused operation with a constant, at all uses of the constant in the block: quadratic time.
+/// Blocks longer than this are cut where code is generated at level 0. Selection works on a block at a time and looks,
+/// at each fused operation with a constant, at all uses of the constant in the block: quadratic time.
 constexpr size_t kLongBlock = 1000;
 /// Entry points for which optimised code would take seconds.
 constexpr size_t kManyEntries = 500;
