@@ -165,7 +165,7 @@ void emit_module(Generated& generated, const ir::Module& module, const Options& 
     generated.error = "internal error: " + complaint;
 #endif
   if (!generated.error.empty()) return;
-  choose_native_calls(*parts.module, domain, parts.target, options.library_calls);
+  choose_native_calls(*parts.module, parts.target, options.library_calls);
   link_library(*parts.module, domain, attributes, generated.error);
   if (generated.error.empty()) define_tables(*parts.module, parts.target);
 }
