@@ -66,7 +66,7 @@ std::map<llvm::StringRef, orc::ExecutorAddr> external_functions() {
 orc::ExecutorAddr find_external(llvm::StringRef name) {
   static const std::map<llvm::StringRef, orc::ExecutorAddr> functions = external_functions();
   if (const auto found = functions.find(name); found != functions.end()) return found->second;
-  return orc::ExecutorAddr::fromPtr(codegen::native_call_address(name.str()));
+  return orc::ExecutorAddr::fromPtr(codegen::native_call_address({name.data(), name.size()}));
 }
 
 } // namespace

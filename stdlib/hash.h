@@ -24,11 +24,11 @@ template <class L> MS_INLINE L unit_number(UInt32<L> bits) {
   return convert<L>(convert<Int32<L>>(bits >> 8u)) * constant<L>(0x1p-24);
 }
 
-/// The bits that a number is hashed by: those of its float; -0 as 0, and all NaNs alike.
+/// The bits that a number is hashed by: those of its float; -0 and every NaN as 0, by one comparison.
 template <class L> MS_INLINE UInt32<L> hash_bits(L x) {
   using F = Wide<float, width_of<L>>;
-  F rounded = convert<F>(x) + F(0.0f);
-  return select(is_nan(x), UInt32<L>(0x7fc00000u), bit_cast<UInt32<L>>(rounded));
+  F rounded = convert<F>(x), zero = F(0.0f);
+  return select(less(rounded, zero) | less(zero, rounded), bit_cast<UInt32<L>>(rounded), UInt32<L>(0u));
 }
 
 /// An integer that is a float is hashed as that number (1 and 1.0 are equal in Lua), any other by its 64 bits.

@@ -18,29 +18,90 @@ template <class I> MS_INLINE I wrapping_subtract(I a, I b) {
   return bit_cast<I>(bit_cast<Unsigned<I>>(a) - bit_cast<Unsigned<I>>(b));
 }
 
+/// f(m, n) a lane at a time: for what vectors have no instruction for. A loop, so that it stays short.
+template <class L, class F> MS_INLINE Int<L> lane_by_lane(Int<L> m, Int<L> n, F f) {
+  int64_t dividends[width_of<L>], divisors[width_of<L>];
+  __builtin_memcpy(dividends, &m, sizeof m);
+  __builtin_memcpy(divisors, &n, sizeof n);
+#pragma clang loop unroll(disable)
+  for (int i = 0; i < width_of<L>; ++i)
+    dividends[i] = f(dividends[i], divisors[i]);
+  __builtin_memcpy(&m, dividends, sizeof m);
+  return m;
+}
+
 /// A divisor without the two that trap: 0, and -1 (mininteger / -1); both become 1.
-template <class L> MS_INLINE Int<L> safe_divisor(Int<L> n) {
-  auto special = to_mask<L>(n == Int<L>(0)) | to_mask<L>(n == Int<L>(-1));
-  return select(special, Int<L>(1), n);
+inline int64_t safe_divisor(int64_t n) { return n == 0 || n == -1 ? 1 : n; }
+
+inline int64_t divide_one(int64_t m, int64_t n) {
+  if (n == 0) return 0;
+  if (n == -1) return wrapping_subtract(int64_t(0), m);
+  const int64_t quotient = m / n;
+  return quotient * n != m && (m ^ n) < 0 ? quotient - 1 : quotient;
+}
+inline int64_t modulo_one(int64_t m, int64_t n) {
+  const int64_t rest = m % safe_divisor(n);
+  return rest != 0 && (rest ^ n) < 0 ? rest + n : rest;
+}
+
+// Many lanes divide as doubles. Of integers below 2^51 the quotient, rounded, lies on the same side of every integer as
+// the exact one (they are apart by 1/n at least, and a quotient below 2^51/n is rounded by less), so its floor is
+// Lua's. What is greater takes the way of one lane; it is rare, so the quotient is made in any case, and shared.
+
+/// 1.5 * 2^52: added to an integer below 2^51 as doubles, it leaves the integer in the lower bits.
+inline constexpr int64_t kShiftedBits = 0x4338000000000000;
+inline constexpr double kShift = 0x1.8p52;
+template <class I> using Double = Wide<double, width_of<I>>;
+template <class I> MS_INLINE Double<I> small_to_double(I i) {
+  return bit_cast<Double<I>>(wrapping_add(i, I(kShiftedBits))) - Double<I>(kShift);
+}
+template <class I> MS_INLINE I small_to_integer(Double<I> x) {
+  return wrapping_subtract(bit_cast<I>(x + Double<I>(kShift)), I(kShiftedBits));
+}
+/// Whether some lane of either is not below 2^51.
+template <class I> MS_INLINE bool any_great(I m, I n) {
+  const auto high = [](I i) { return bit_cast<Unsigned<I>>(wrapping_add(i, I(int64_t(1) << 51))) >> uint64_t(52); };
+  return any(to_mask<Double<I>>((high(m) | high(n)) != Unsigned<I>(uint64_t(0))));
 }
 
 template <class L> MS_INLINE Int<L> integer_idiv(Int<L> m, Int<L> n) {
-  Int<L> divisor = safe_divisor<L>(n);
-  Int<L> quotient = m / divisor;
-  auto inexact = to_mask<L>(quotient * divisor != m), opposite = to_mask<L>((m ^ n) < Int<L>(0));
-  quotient = select(inexact & opposite, wrapping_subtract(quotient, Int<L>(1)), quotient);
-  quotient = select(to_mask<L>(n == Int<L>(-1)), wrapping_subtract(Int<L>(0), m), quotient);
-  return select(to_mask<L>(n == Int<L>(0)), Int<L>(0), quotient);
+  if constexpr (width_of<L> == 1) {
+    return divide_one(m, n);
+  } else {
+    using I = Int<L>;
+    auto zero = to_mask<Double<I>>(n == I(0));
+    Double<I> quotient = floor(small_to_double(m) / small_to_double(select(zero, I(1), n)));
+    if (any_great(m, n)) return lane_by_lane<L>(m, n, divide_one);
+    return select(zero, I(0), small_to_integer<I>(quotient));
+  }
 }
 
 template <class L> MS_INLINE Int<L> integer_mod(Int<L> m, Int<L> n) {
-  Int<L> rest = m % safe_divisor<L>(n);
-  auto inexact = to_mask<L>(rest != Int<L>(0)), opposite = to_mask<L>((rest ^ n) < Int<L>(0));
-  return select(inexact & opposite, wrapping_add(rest, n), rest);
+  if constexpr (width_of<L> == 1) {
+    return modulo_one(m, n);
+  } else {
+    using I = Int<L>;
+    auto zero = to_mask<Double<I>>(n == I(0));
+    Double<I> dividend = small_to_double(m), divisor = small_to_double(select(zero, I(1), n));
+    Double<I> rest = dividend - floor(dividend / divisor) * divisor; // exact
+    if (any_great(m, n)) return lane_by_lane<L>(m, n, modulo_one);
+    return small_to_integer<I>(rest);
+  }
 }
 
 /// math.fmod: the rest has the sign of m.
-template <class L> MS_INLINE Int<L> integer_fmod(Int<L> m, Int<L> n) { return m % safe_divisor<L>(n); }
+template <class L> MS_INLINE Int<L> integer_fmod(Int<L> m, Int<L> n) {
+  if constexpr (width_of<L> == 1) {
+    return m % safe_divisor(n);
+  } else {
+    using I = Int<L>;
+    auto zero = to_mask<Double<I>>(n == I(0));
+    Double<I> dividend = small_to_double(m), divisor = small_to_double(select(zero, I(1), n));
+    Double<I> rest = dividend - trunc(dividend / divisor) * divisor; // exact
+    if (any_great(m, n)) return lane_by_lane<L>(m, n, integer_fmod<Scalar<L>>);
+    return small_to_integer<I>(rest);
+  }
+}
 
 template <class L> MS_INLINE Int<L> shift_left(Int<L> x, Int<L> y) {
   UInt<L> bits = bit_cast<UInt<L>>(x), mask = UInt<L>(uint64_t(63));

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <random>
 #include <vector>
 
 namespace moonshade::stdlib {
@@ -142,6 +143,34 @@ TEST(Operators, OfIntegersAreLuas) {
       lua.call("fmod", a, b);
       EXPECT_EQ(integer_fmod<double>(a, b), lua.take_integer()) << a << " fmod " << b;
     }
+}
+
+/// Many lanes divide as doubles where all of them are below 2^51: awkward pairs in that part and beyond it, and
+/// dividends next to a multiple of the divisor, where a quotient could be rounded over it.
+TEST(Operators, ManyLanesDivideAsOne) {
+  constexpr int kWidth = 4;
+  using L = Wide<float, kWidth>;
+  std::mt19937_64 random(5);
+  const auto integer = [&](int bits) {
+    const auto magnitude = static_cast<int64_t>(random() >> (64 - bits));
+    return (random() & 1) != 0 ? magnitude : -magnitude;
+  };
+  for (int round = 0; round < 200'000; ++round) {
+    const int most = round % 4 == 0 ? 63 : 51; // bits
+    Int<L> m, n;
+    for (int i = 0; i < kWidth; ++i) {
+      n[i] = integer(1 + static_cast<int>(random() % unsigned(most)));
+      m[i] = integer(1 + static_cast<int>(random() % unsigned(most)));
+      if (round % 8 == 0) m[i] = kIntegers[random() % kIntegers.size()], n[i] = kIntegers[random() % kIntegers.size()];
+      if (round % 4 == 1 && n[i] != 0) m[i] = m[i] / n[i] * n[i] + static_cast<int64_t>(random() % 3) - 1;
+    }
+    const Int<L> quotient = integer_idiv<L>(m, n), rest = integer_mod<L>(m, n), fmod = integer_fmod<L>(m, n);
+    for (int i = 0; i < kWidth; ++i) {
+      ASSERT_EQ(quotient[i], integer_idiv<float>(m[i], n[i])) << m[i] << " // " << n[i];
+      ASSERT_EQ(rest[i], integer_mod<float>(m[i], n[i])) << m[i] << " % " << n[i];
+      ASSERT_EQ(fmod[i], integer_fmod<float>(m[i], n[i])) << m[i] << " fmod " << n[i];
+    }
+  }
 }
 
 TEST(Operators, CompareIntegersWithNumbersExactly) {

@@ -7,6 +7,7 @@
 #include "compiler/codegen/link.h"
 #include "compiler/codegen/native_calls.h"
 #include "compiler/codegen/pipeline.h"
+#include "compiler/codegen/split_lanes.h"
 #include "compiler/codegen/tables.h"
 #include "compiler/codegen/target.h"
 #include "compiler/codegen/width.h"
@@ -45,6 +46,9 @@ constexpr unsigned kLargeFunction = 15'000;
 /// exponential time. (Functions written by people stay below a hundred blocks.)
 constexpr size_t kManyBlocks = 1000;
 constexpr unsigned kDeepLoops = 12;
+/// Blocks longer than this are cut where code is generated at level 0. Selection works on a block at a time and looks,
+/// at each fused operation with a constant, at all uses of the constant in the block: quadratic time.
+constexpr size_t kLongBlock = 1000;
 /// Entry points for which optimised code would take seconds.
 constexpr size_t kManyEntries = 500;
 /// Operations of the IR, with functions emitted in place counted at each call: beyond this nothing is generated.
@@ -110,6 +114,18 @@ bool has_tangled_function(llvm::Module& module) {
   });
 }
 
+/// From the end, so that nothing moves twice.
+void cut_long_blocks(llvm::Module& module) {
+  for (llvm::Function& function : module)
+    for (llvm::BasicBlock& block : llvm::make_early_inc_range(function)) {
+      size_t behind = 0;
+      for (auto at = block.rbegin(); at != block.rend() && !llvm::isa<llvm::PHINode>(*at);) {
+        llvm::Instruction& instruction = *at++;
+        if (++behind % kLongBlock == 0) block.splitBasicBlock(&instruction);
+      }
+    }
+}
+
 void emit_module(Generated& generated, const ir::Module& module, const Options& options) {
   Generated::Parts& parts = *generated.parts;
   CodeInfo& info = generated.info;
@@ -149,7 +165,7 @@ void emit_module(Generated& generated, const ir::Module& module, const Options& 
     generated.error = "internal error: " + complaint;
 #endif
   if (!generated.error.empty()) return;
-  choose_native_calls(*parts.module, domain, parts.target, options.library_calls);
+  choose_native_calls(*parts.module, parts.target, options.library_calls);
   link_library(*parts.module, domain, attributes, generated.error);
   if (generated.error.empty()) define_tables(*parts.module, parts.target);
 }
@@ -225,8 +241,14 @@ Generated generate(const ir::Module& module, const Options& options) {
   if (!generated.error.empty()) return generated;
   const bool too_costly = module.entries.size() > kManyEntries || has_tangled_function(*parts.module);
   optimize(*parts.module, *parts.target.machine, too_costly ? 0 : options.optimization);
+  const bool costly = too_costly || has_large_function(*parts.module);
+  if (costly) {
+    parts.target.machine->setOptLevel(llvm::CodeGenOptLevel::None);
+    cut_long_blocks(*parts.module);
+  }
+  if (!costly && options.optimization > 0)
+    split_lanes(*parts.module, generated.info.width, best_width(parts.target, options.precision));
   generated.times.optimize = watch.lap();
-  if (too_costly || has_large_function(*parts.module)) parts.target.machine->setOptLevel(llvm::CodeGenOptLevel::None);
 #ifndef NDEBUG
   if (std::string complaint = verify(*parts.module); !complaint.empty())
     generated.error = "internal error: " + complaint;

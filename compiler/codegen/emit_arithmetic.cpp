@@ -39,6 +39,7 @@ Lanes FunctionEmitter::arithmetic(const ir::Instruction& instruction) {
       lanes.parts.push_back(builder.CreateNot(a));
       continue;
     case Op::IntegerToNumber:
+      if (const auto* wide = llvm::dyn_cast<llvm::SExtInst>(a)) a = wide->getOperand(0); // of a narrow variable
       lanes.parts.push_back(builder.CreateSIToFP(a, domain_.part(ValueType::Number, a->getType()->isVectorTy())));
       continue;
     default:

@@ -38,7 +38,32 @@ bool FunctionEmitter::is_cheap(const ir::Block& block, size_t from) const {
   return true;
 }
 
+/// Lanes leave the innermost loop where either of two conditions holds, one of which is the same for all of them: that
+/// one is a branch of its own, where it would have to be spread over a mask.
+bool FunctionEmitter::break_in_two(const ir::Instruction& instruction) {
+  const auto& instructions = activation_->function->instructions;
+  const ir::Block& block = instruction.blocks[0];
+  if (block.instructions.size() != 1 || (instruction.blocks.size() > 1 && !instruction.blocks[1].instructions.empty()))
+    return false;
+  const ir::Instruction& leaving = instructions[block.instructions[0]];
+  if (leaving.op != Op::Break || !masks.is_innermost_loop(leaving.index)) return false;
+  const ir::Instruction* condition = &instructions[instruction.operands[0]];
+  const bool negated = condition->op == Op::Not; // of both
+  if (negated) condition = &instructions[condition->operands[0]];
+  if (condition->op != (negated ? Op::And : Op::Or)) return false;
+  llvm::Value *uniform = value(condition->operands[0]).parts[0], *varying = value(condition->operands[1]).parts[0];
+  if (uniform->getType()->isVectorTy()) std::swap(uniform, varying);
+  if (uniform->getType()->isVectorTy() || !varying->getType()->isVectorTy()) return false;
+  for (llvm::Value* one : {uniform, varying}) {
+    const bool by_lane = one == varying;
+    const auto leave = [&] { masks.break_to(leaving.index, by_lane); };
+    masks.if_else(negated ? builder.CreateNot(one) : one, {leave, true}, {[] {}, true});
+  }
+  return true;
+}
+
 void FunctionEmitter::if_else(const ir::Instruction& instruction) {
+  if (break_in_two(instruction)) return;
   const auto arm = [&](size_t i) -> Masks::Arm {
     if (i >= instruction.blocks.size()) return {[] {}, true};
     return {[] {}, is_cheap(instruction.blocks[i])};

@@ -199,6 +199,7 @@ private:
 
   // emit_control.cpp
   void if_else(const ir::Instruction& instruction);
+  bool break_in_two(const ir::Instruction& instruction);
   void return_values(ir::ValueId id, const ir::Instruction& instruction);
   void print(const ir::Instruction& instruction);
   void fault(const ir::Instruction& instruction);

@@ -85,6 +85,10 @@ public:
   /// off here.
   void leave_loop_unless(llvm::Value* live);
   bool in_loop() const;
+  /// Whether nothing that lanes wait in stands between here and the loop `label`.
+  bool is_innermost_loop(ir::LabelId label) const {
+    return !frames_.empty() && frames_.back().kind == FrameKind::Loop && frames_.back().label == label;
+  }
 
   // --- Stores
   /// The home of what may be seen by lanes that are not known here.

@@ -6,6 +6,7 @@
 
 #include <llvm/IR/Function.h>
 
+#include <map>
 #include <vector>
 
 namespace moonshade::codegen {
@@ -21,37 +22,37 @@ constexpr size_t kSmall = 40;
 /// and has so much to compute that calls hardly count.
 constexpr size_t kBudget = 250;
 
-/// The domain's machine code that runs on the target.
+/// The machine code of the domain whose export has this name; empty where there is none.
+NativeExports domain_of(std::string_view name) {
+  if (export_order(name) == 2) return {};
+  for (const Precision precision : {Precision::F32, Precision::F64})
+    for (const unsigned width : kWidths)
+      if (name.ends_with((precision == Precision::F32 ? "_f32_w" : "_f64_w") + std::to_string(width)))
+        return native_exports(precision, width, is_derivative_export(name));
+  return {};
+}
+
+/// The machine code of exports, where it runs on the target.
 class CodeThatRuns {
 public:
-  CodeThatRuns(const Domain& domain, const Target& target) {
-    for (const unsigned width : {domain.width, 1u})
-      for (const bool derivatives : {false, true}) {
-        const NativeExports exports = native_exports(domain.precision, width, derivatives);
-        if (exports.exports.empty()) continue;
-        if (tables_.empty() || tables_.back().exports.processor != exports.processor)
-          runs_ = runs_code_of(target, exports.processor);
-        if (runs_) tables_.push_back({"_w" + std::to_string(width), derivatives, exports});
-      }
-  }
+  explicit CodeThatRuns(const Target& target) : target_(target) {}
 
-  const NativeExport* find(const llvm::Function& function) const {
-    const llvm::StringRef name = function.getName();
-    if (!function.isDeclaration() || !name.starts_with("ms_") || export_order(name) == 2) return nullptr;
-    for (const Table& table : tables_)
-      if (name.ends_with(table.ending) && is_derivative_export(name) == table.derivatives)
-        return table.exports.find(name);
-    return nullptr;
+  const NativeExport* find(const llvm::Function& function) {
+    const std::string_view name(function.getName().data(), function.getName().size());
+    if (!function.isDeclaration() || !name.starts_with("ms_")) return nullptr;
+    const NativeExports domain = domain_of(name);
+    return !domain.exports.empty() && runs(domain.processor) ? domain.find(name) : nullptr;
   }
 
 private:
-  struct Table {
-    std::string ending;
-    bool derivatives;
-    NativeExports exports;
-  };
-  std::vector<Table> tables_;
-  bool runs_ = false;
+  bool runs(std::string_view processor) {
+    const auto [known, is_new] = known_.try_emplace(processor);
+    if (is_new) known->second = runs_code_of(target_, processor);
+    return known->second;
+  }
+
+  const Target& target_;
+  std::map<std::string_view, bool> known_; ///< by processor
 };
 
 /// What the library promises of its functions (library.h).
@@ -66,9 +67,9 @@ void call(llvm::Function& function) {
 
 } // namespace
 
-void choose_native_calls(llvm::Module& module, const Domain& domain, const Target& target, LibraryCalls calls) {
+void choose_native_calls(llvm::Module& module, const Target& target, LibraryCalls calls) {
   if (calls == LibraryCalls::None || !target.native) return;
-  const CodeThatRuns native(domain, target);
+  CodeThatRuns native(target);
   std::vector<llvm::Function*> large;
   size_t sum = 0;
   // Look-ups in registers are twice as fast as machine code that gathers.
@@ -84,19 +85,11 @@ void choose_native_calls(llvm::Module& module, const Domain& domain, const Targe
     call(*function);
 }
 
-const void* native_call_address(const std::string& name) {
-  std::string_view rest = name;
-  if (!rest.starts_with(kPrefix)) return nullptr;
-  rest.remove_prefix(kPrefix.size());
-  const bool derivatives = is_derivative_export(rest);
-  for (const Precision precision : {Precision::F32, Precision::F64})
-    for (const unsigned width : kWidths) {
-      const std::string domain = (precision == Precision::F32 ? "_f32_w" : "_f64_w") + std::to_string(width);
-      if (!rest.ends_with(domain)) continue;
-      const NativeExport* code = native_exports(precision, width, derivatives).find(rest);
-      return code != nullptr ? code->address : nullptr;
-    }
-  return nullptr;
+const void* native_call_address(std::string_view name) {
+  if (!name.starts_with(kPrefix)) return nullptr;
+  name.remove_prefix(kPrefix.size());
+  const NativeExport* code = domain_of(name).find(name);
+  return code != nullptr ? code->address : nullptr;
 }
 
 } // namespace moonshade::codegen

@@ -4,19 +4,18 @@
 #pragma once
 
 #include "compiler/codegen/codegen.h"
-#include "compiler/codegen/lanes.h"
 #include "compiler/codegen/target.h"
 
 #include <llvm/IR/Module.h>
 
-#include <string>
+#include <string_view>
 
 namespace moonshade::codegen {
 
 /// Renames the declarations of exports that are to be called, so that the library's bitcode does not define them.
-void choose_native_calls(llvm::Module& module, const Domain& domain, const Target& target, LibraryCalls calls);
+void choose_native_calls(llvm::Module& module, const Target& target, LibraryCalls calls);
 
 /// Where the function of such a name lies; null where there is none.
-const void* native_call_address(const std::string& name);
+const void* native_call_address(std::string_view name);
 
 } // namespace moonshade::codegen

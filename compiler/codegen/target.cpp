@@ -43,7 +43,8 @@ const std::string& host_features() {
 }
 
 /// Machines that nobody uses at the moment. Making one, and what it works out about its processor, takes longer than
-/// small shaders do.
+/// small shaders do. The one thing that compilations share and change (docs/design.md says why it may be): which
+/// machine one gets makes no difference, as all that can be set of it is set anew.
 class IdleMachines {
 public:
   std::unique_ptr<llvm::TargetMachine> take(const std::string& key) {
@@ -176,6 +177,7 @@ Target make_target(const TargetOptions& options) {
     return target;
   }
   machine->setOptLevel(level);
+  machine->setFastISel(false); // which level 0 sets, and no other level takes back
   target.machine = {machine.release(), [key = std::move(key)](llvm::TargetMachine* idle) {
                       idle_machines().give_back(key, std::unique_ptr<llvm::TargetMachine>(idle));
                     }};

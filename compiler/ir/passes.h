@@ -19,6 +19,9 @@ void forward_constant_globals(Module& module);
 /// Folds operations on constants where float and double agree; removes ifs on constants. (fold.cpp)
 void fold_constants(Function& function);
 
+/// Comparisons of integers that the ranges of their values decide become constants. (ranges.cpp)
+void decide_comparisons(Function& function);
+
 /// Loads of variables that are stored once become the stored value. (forward_variables.cpp)
 void forward_variables(Function& function);
 

@@ -126,6 +126,48 @@ TEST(Fold, ComparesWithSmallIntegerConstantsAsNumbers) {
   EXPECT_THAT(compared(16777217), HasSubstr("op_lt_number_integer")) << "float does not hold it";
 }
 
+TEST(DecideComparisons, AnIndexBuiltWithinItsBoundsNeedsNoCheck) {
+  const auto checked_index = [](Builder& b, const LibraryFunction& row, std::vector<ValueId> operands) {
+    const ValueId index = b.binary(Op::Add, b.call_library(row, Integer, std::move(operands)), b.integer(1));
+    const ValueId below = b.compare(Op::Lt, index, b.integer(1)), above = b.compare(Op::Lt, b.integer(3), index);
+    b.fault(b.binary(Op::Or, below, above), FaultCode::Index);
+    b.return_values({index});
+  };
+  const LibraryFunction &fract = library_overloads("fract")[0], &floor = library_overloads("math.floor")[0];
+  const LibraryFunction& mod = library_overloads("op.mod")[0];
+  ASSERT_EQ(floor.parameters[0], Number);
+  ASSERT_EQ(mod.parameters[0], Integer);
+  const auto settled = [](Function& function) {
+    decide_comparisons(function);
+    fold_constants(function);
+  };
+  const auto of_share = [&](double scale) {
+    return after(settled, {Number}, {Integer}, [&](Builder& b) {
+      const ValueId share = b.call_library(fract, Number, {b.argument(0)});
+      checked_index(b, floor, {b.binary(Op::Mul, share, b.number(scale))});
+    });
+  };
+  EXPECT_EQ(of_share(2.9), R"(
+function f(a: number) -> integer {
+  %0: number = argument 0
+  %1: number = call_library fract(%0)
+  %2: number = const.n 2.8999999999999999
+  %3: number = mul %1, %2
+  %4: integer = call_library math_floor(%3)
+  %5: integer = const.i 1
+  %6: integer = add %4, %5
+  return %6
+}
+)");
+  EXPECT_THAT(of_share(3), HasSubstr("fault")) << "may be rounded up to 3";
+  EXPECT_THAT(
+      after(settled, {Integer}, {Integer}, [&](Builder& b) { checked_index(b, mod, {b.argument(0), b.integer(3)}); }),
+      Not(HasSubstr("fault")));
+  EXPECT_THAT(
+      after(settled, {Integer}, {Integer}, [&](Builder& b) { checked_index(b, mod, {b.argument(0), b.integer(-3)}); }),
+      HasSubstr("fault"));
+}
+
 TEST(ForwardVariables, LoadsOfWhatWasStoredBecomeIt) {
   EXPECT_EQ(after(forward_variables, {Number, Boolean}, {Number},
                   [](Builder& b) {
@@ -213,6 +255,29 @@ function f(a: number, b: boolean) -> number, number, number {
   %4: number = neg %0
   %5: number = load $0.v
   return %1, %5, %4
+}
+)");
+}
+
+TEST(ShareValues, AConditionIsCheckedOnceOnEachPath) {
+  EXPECT_EQ(after(share_values, {Boolean, Boolean}, {},
+                  [](Builder& b) {
+                    const ValueId bad = b.argument(0);
+                    b.if_else(b.argument(1), b.block([&] { b.fault(bad, FaultCode::Index); }));
+                    b.fault(bad, FaultCode::DivideByZero);
+                    b.fault(bad, FaultCode::DivideByZero);
+                    b.if_else(b.argument(1), b.block([&] { b.fault(bad, FaultCode::Index); }));
+                    b.return_values({});
+                  }),
+            R"(
+function f(a: boolean, b: boolean) {
+  %0: boolean = argument 0
+  %1: boolean = argument 1
+  if %1 {
+    fault %0, index
+  }
+  fault %0, division
+  return
 }
 )");
 }

@@ -1,11 +1,14 @@
 // share_values: of equal computations, the later takes the value of the earlier where that is visible. LLVM would do
 // the same for arithmetic, but only after inlining the library's bodies, and hardly for those with loops; and what
-// never reaches it costs no time there. Products stay apart: `fuse` wants each for itself.
+// never reaches it costs no time there. Products stay apart: `fuse` wants each for itself. A fault on a condition that
+// a fault before it has, on every path to it, hits no point that is left, and goes: `a % n` beside `a // n` is checked
+// once.
 #include "compiler/ir/passes.h"
 #include "compiler/ir/walk.h"
 
 #include <bit>
 #include <unordered_map>
+#include <unordered_set>
 
 namespace moonshade::ir {
 namespace {
@@ -55,8 +58,16 @@ private:
     return info(instruction.op).shape == OpShape::Value && instruction.op != Op::Mul;
   }
 
+  /// Whether a fault before this one, on every path to it, had the same condition.
+  bool is_checked(const Instruction& instruction, std::vector<ValueId>& checked) {
+    if (instruction.op != Op::Fault) return false;
+    if (!checked_.insert(instruction.operands[0]).second) return true;
+    checked.push_back(instruction.operands[0]);
+    return false;
+  }
+
   void walk(Block& block) {
-    std::vector<ValueId> result;
+    std::vector<ValueId> result, checked;
     std::vector<Key> added;
     result.reserve(block.instructions.size());
     for (const ValueId id : block.instructions) {
@@ -70,19 +81,24 @@ private:
         }
         added.push_back(known->first);
       }
+      if (is_checked(instruction, checked)) continue;
       for (Block& inner : instruction.blocks)
         walk(inner);
       result.push_back(id);
     }
     block.instructions = std::move(result);
+    // Neither is visible outside.
     for (const Key& key : added)
-      known_.erase(key); // not visible outside
+      known_.erase(key);
+    for (const ValueId condition : checked)
+      checked_.erase(condition);
   }
 
   Function& function_;
   bool stores_globals_ = false;
   Replacements replacements_;
   std::unordered_map<Key, ValueId, KeyHash> known_;
+  std::unordered_set<ValueId> checked_; ///< conditions of faults
 };
 
 } // namespace

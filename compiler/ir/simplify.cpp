@@ -15,6 +15,7 @@ void simplify(Function& function) {
     remove_dead_code(function);
   }
   forward_variables(function);
+  decide_comparisons(function);
   fold_constants(function);
   share_values(function);
   remove_dead_code(function);
