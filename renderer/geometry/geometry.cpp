@@ -179,8 +179,10 @@ static TriangleSource source_of(const PlacedObject& placed) {
   return source;
 }
 
-std::unique_ptr<Geometry> Geometry::build(const Scene& scene, std::string& error, std::vector<uint8_t> passable) {
+std::unique_ptr<Geometry> Geometry::build(const Scene& scene, std::string& error, std::vector<uint8_t> passable,
+                                          bool watertight) {
   std::unique_ptr<Geometry> geometry(new Geometry);
+  geometry->watertight_ = watertight;
   geometry->passable_ = std::move(passable);
   geometry->objects_.reserve(scene.objects.size()); // Embree keeps pointers to its elements
   std::map<const Mesh*, size_t> uses;
@@ -196,6 +198,12 @@ std::unique_ptr<Geometry> Geometry::build(const Scene& scene, std::string& error
   DefaultFloatEnvironment restore; // committing flushes denormals in this thread
   if (!geometry->commit(error)) return nullptr;
   return geometry;
+}
+
+RTCScene Geometry::new_scene() const {
+  RTCScene scene = rtcNewScene(embree_->device);
+  rtcSetSceneFlags(scene, watertight_ ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
+  return scene;
 }
 
 RTCGeometry Geometry::triangles(PlacedObject& placed, bool instanced) {
@@ -222,8 +230,7 @@ RTCGeometry Geometry::triangles(PlacedObject& placed, bool instanced) {
 RTCGeometry Geometry::instance_of(PlacedObject& placed) {
   RTCScene& shared = embree_->shared[placed.object->mesh.get()];
   if (!shared) {
-    shared = rtcNewScene(embree_->device);
-    rtcSetSceneFlags(shared, RTC_SCENE_FLAG_ROBUST);
+    shared = new_scene();
     RTCGeometry mesh = triangles(placed, true);
     // Any of the objects may let light through; those that do not pass the filter at once.
     bool any = std::any_of(objects_.begin(), objects_.end(), [&](const PlacedObject& other) {
@@ -280,8 +287,7 @@ bool Geometry::commit(std::string& error) {
   rtcSetDeviceErrorFunction(
       e.device, [](void* user, RTCError, const char* text) { static_cast<Embree*>(user)->error = text ? text : "?"; },
       &e);
-  e.scene = rtcNewScene(e.device);
-  rtcSetSceneFlags(e.scene, RTC_SCENE_FLAG_ROBUST);
+  e.scene = new_scene();
   rtcSetSceneBuildQuality(e.scene, quality_for(triangle_count()));
   for (unsigned id = 0; id < objects_.size(); ++id)
     attach(id);

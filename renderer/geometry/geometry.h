@@ -10,6 +10,7 @@
 #include <vector>
 
 struct RTCGeometryTy; // Embree's
+struct RTCSceneTy;
 
 namespace moonshade::renderer {
 
@@ -99,12 +100,15 @@ public:
   static constexpr size_t kInstancedTriangles = 1000;
 
   /// Keeps a reference to the scene's objects. Null and an error where Embree fails (memory). `passable`, by material:
-  /// surfaces that `occluded` looks through; empty: none.
-  static std::unique_ptr<Geometry> build(const Scene& scene, std::string& error, std::vector<uint8_t> passable = {});
+  /// surfaces that `occluded` looks through; empty: none. `watertight`: no ray slips through between two triangles that
+  /// share an edge; without, one of some 10^5 to 10^8 does, and each takes a fifth less of time.
+  static std::unique_ptr<Geometry> build(const Scene& scene, std::string& error, std::vector<uint8_t> passable = {},
+                                         bool watertight = true);
   ~Geometry();
   Geometry(const Geometry&) = delete;
   Geometry& operator=(const Geometry&) = delete;
 
+  bool watertight() const { return watertight_; }
   std::span<const PlacedObject> objects() const { return objects_; }
   const Box& bounds() const { return bounds_; }
   /// By object.
@@ -124,6 +128,7 @@ private:
   Geometry();
   bool commit(std::string& error);
   size_t triangle_count() const;
+  RTCSceneTy* new_scene() const;
   RTCGeometryTy* triangles(PlacedObject& placed, bool instanced);
   RTCGeometryTy* instance_of(PlacedObject& placed);
   void attach(unsigned id);
@@ -131,6 +136,7 @@ private:
   SurfacePoint sphere_point(const PlacedObject& placed, const Ray& ray, const Hit& hit) const;
 
   std::vector<uint8_t> passable_;
+  bool watertight_ = true;
   std::vector<PlacedObject> objects_;
   std::vector<TriangleSource> sources_;
   Box bounds_;
