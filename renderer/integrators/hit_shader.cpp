@@ -10,13 +10,13 @@ HitShader::HitShader(const Scene& scene, const Geometry& geometry, const Materia
       batch_(capacity, scene.settings.time, scene.settings.frame), sorted_(capacity), material_(capacity),
       run_start_(materials.size() + 1) {
   added_.reserve(capacity);
-  for (std::vector<float>* array : {&distance_, &offset_, &outward_[0], &outward_[1], &outward_[2]})
+  for (std::vector<float>* array : {&distance_, &offset_, &width_, &outward_[0], &outward_[1], &outward_[2]})
     array->resize(capacity + kLanes);
   for (size_t c = 0; c < std::size(arrays_.inputs); ++c)
     arrays_.inputs[c] = batch_.inputs[c].data();
   arrays_.backface = batch_.backface.data();
   arrays_.id = batch_.id.data();
-  arrays_.distance = distance_.data(), arrays_.offset = offset_.data();
+  arrays_.distance = distance_.data(), arrays_.offset = offset_.data(), arrays_.width = width_.data();
   for (int c = 0; c < 3; ++c)
     arrays_.outward[c] = outward_[c].data();
 }
@@ -59,7 +59,7 @@ void HitShader::place(uint32_t needs, bool bends, size_t begin, size_t end) {
   const TriangleSource* sources = geometry_.sources().data();
   for (size_t at = begin; at < end; at += kLanes) {
     size_t count = std::min(kLanes, end - at);
-    Met* block = met() + at;
+    const Met* block = met() + at;
     bool triangles = std::all_of(block, block + count, [&](const Met& m) { return sources[m.hit.object].vertices; });
     if (triangles)
       kernels_.triangle_points(sources, block, count, needs, bends, arrays_, at);
@@ -76,10 +76,10 @@ static void store(const PointArrays& arrays, Channel channel, size_t k, const Ve
 
 /// What the kernel does for triangles, for a point of anything.
 void HitShader::place_one(uint32_t needs, bool bends, size_t k) {
-  Met& met = this->met()[k];
+  const Met& met = this->met()[k];
   SurfacePoint s = geometry_.surface(*met.ray, met.hit);
   const Vec3& incident = met.ray->direction;
-  met.width += met.spread * s.distance;
+  width_[k] = met.width + met.spread * s.distance;
   bool backface = glm::dot(s.geometric_normal, incident) > 0;
   float side = backface ? -1.0f : 1.0f;
   batch_.backface[k] = backface;
@@ -97,7 +97,7 @@ void HitShader::place_one(uint32_t needs, bool bends, size_t k) {
   batch_.inputs[kUv][k] = s.uv.x, batch_.inputs[kUv + 1][k] = s.uv.y;
   store(arrays_, kDpdu, k, s.dpdu);
   store(arrays_, kDpdv, k, s.dpdv);
-  batch_.inputs[kFootprint][k] = met.width / geometry_.objects()[met.hit.object].scale;
+  batch_.inputs[kFootprint][k] = width_[k] / geometry_.objects()[met.hit.object].scale;
 }
 
 SurfaceValues HitShader::values(size_t k) const {

@@ -159,8 +159,13 @@ void LightSet::add_mesh(const PlacedObject& placed, uint32_t id, const ObjectEmi
   }
   entry.power = float(sum);
   if (entry.triangles.empty() || !accumulate(entry.cumulative)) return;
-  for (size_t i = 0; i < entry.triangles.size(); ++i)
-    entry.triangle_pdf[entry.triangles[i]] = float(brightness[i] / sum);
+  for (size_t i = 0; i < entry.triangles.size(); ++i) {
+    const Mesh::Corners& c = mesh.triangles[entry.triangles[i]];
+    float density = entry.triangle_pdf[entry.triangles[i]] = float(brightness[i] / sum);
+    entry.emitting.push_back({placed.vertices[c[0]], density, placed.vertices[c[1]], placed.mirrored ? -1.0f : 1.0f,
+                              placed.vertices[c[2]], entry.one_sided ? 1.0f : 0.0f,
+                              entry.by_shader ? Vec3(1) : entry.triangle_emission[i], 1});
+  }
   light_of_object_[id] = int32_t(lights_.size());
   lights_.push_back(std::move(entry));
 }
@@ -235,32 +240,19 @@ static void ask_surface(LightSample& sample, uint32_t object, uint32_t primitive
   sample.object = object, sample.primitive = primitive;
 }
 
-uint32_t LightSet::choose_triangle(const Entry& entry, float& u, Vec3 (&corners)[3], float& density,
-                                   float& side) const {
-  uint32_t index = choose(entry.cumulative, u), triangle = entry.triangles[index];
-  const PlacedObject& placed = geometry_.objects()[entry.object];
-  const Mesh::Corners& c = placed.object->mesh->triangles[triangle];
-  for (size_t k = 0; k < 3; ++k)
-    corners[k] = placed.vertices[c[k]];
-  density = entry.triangle_pdf[triangle];
-  side = placed.mirrored ? -1.0f : 1.0f;
-  return index;
-}
-
 LightSample LightSet::sample_mesh(const Entry& entry, const Vec3& point, const Vec2& u) const {
-  Vec3 corners[3];
-  float within = u.x, density, side;
-  uint32_t index = choose_triangle(entry, within, corners, density, side);
+  float within = u.x;
+  uint32_t index = choose(entry.cumulative, within);
+  const LightTriangle& t = entry.emitting[index];
   auto lane = [](const Vec3& v) { return lanes::V3<float>{{v.x, v.y, v.z}}; };
-  AreaSample<float> area{
-      lane(corners[0]), lane(corners[1]), lane(corners[2]), within, u.y, density, side, {entry.one_sided}, {}, 0, 0};
+  AreaSample<float> area{lane(t.a), lane(t.b), lane(t.c), within, u.y, t.density, t.side, {t.one_sided != 0}, {}, 0, 0};
   sample_area(lane(point), area);
   LightSample sample;
   if (!(area.pdf > 0)) return sample;
   sample.direction = {area.direction[0], area.direction[1], area.direction[2]};
   sample.distance = area.distance;
   sample.pdf = area.pdf;
-  sample.radiance = entry.triangle_emission[index];
+  sample.radiance = t.emission;
   if (entry.by_shader) ask_surface(sample, entry.object, entry.triangles[index]);
   return sample;
 }
@@ -366,25 +358,16 @@ static float sky_height(uint32_t band, float within) {
 }
 
 void LightSet::look_up(ScatterBlock& block, size_t count, LightSample* others) const {
+  static const LightTriangle kNone;
   for (size_t i = 0; i < kLanes; ++i)
-    block.area[i] = block.sky[i] = block.delta[i] = block.one_sided[i] = 0, block.light_pdf[i] = 0;
+    block.triangles[i] = &kNone, block.sky[i] = block.delta[i] = 0, block.light_pdf[i] = 0;
   for (size_t i = 0; i < count; ++i) {
     const Entry& entry = lights_[block.light[i]];
     others[i].emitter = Emitter::Known;
     if (entry.kind == Kind::Mesh) {
-      Vec3 corners[3];
-      uint32_t index = choose_triangle(entry, block.light_u[i], corners, block.density[i], block.side[i]);
-      for (size_t corner = 0; corner < 3; ++corner)
-        for (int c = 0; c < 3; ++c)
-          block.corner[corner][c][i] = corners[corner][c];
-      block.area[i] = 1, block.one_sided[i] = entry.one_sided;
-      Vec3 emission = entry.triangle_emission[index];
-      if (entry.by_shader) {
-        ask_surface(others[i], entry.object, entry.triangles[index]);
-        emission = Vec3(1);
-      }
-      for (int c = 0; c < 3; ++c)
-        block.emission[c][i] = emission[c];
+      uint32_t index = choose(entry.cumulative, block.light_u[i]);
+      block.triangles[i] = &entry.emitting[index];
+      if (entry.by_shader) ask_surface(others[i], entry.object, entry.triangles[index]);
     } else if (entry.kind == Kind::Sky && formulas_only_) {
       float within = block.light_u[i];
       uint32_t band = choose(entry.cumulative, within);

@@ -89,6 +89,7 @@ private:
     std::vector<float> band_density;     ///< Sky: per solid angle, by band
     std::vector<float> triangle_pdf;     ///< Mesh: density per area, by primitive; 0 where it does not emit
     std::vector<Vec3> triangle_emission; ///< Mesh: parallel to `triangles`
+    std::vector<LightTriangle> emitting; ///< Mesh: the same as samples take them, emission 1 where a shader is asked
     Vec3 emission{0};                    ///< Sphere, Ellipsoid
     float power = 0;                     ///< Mesh: luminance of its mean emission, times area
     bool by_shader = false;              ///< emission is a mean
@@ -118,9 +119,6 @@ private:
   static EnvironmentLight formula_of(const Entry& entry);
   /// Density of a direction by one of the lights far away.
   float entry_pdf(const Entry& entry, const Vec3& direction) const;
-  /// Chooses a triangle by `u`, which becomes uniform again within it, and gives what sample_area takes.
-  uint32_t choose_triangle(const Entry& entry, float& u, Vec3 (&corners)[3], float& density, float& side) const;
-
   const Geometry& geometry_;
   const Scene& scene_;
   std::vector<Environment> environments_;
