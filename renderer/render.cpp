@@ -204,8 +204,13 @@ private:
   void add_to_film(uint32_t samples) {
     auto start = std::chrono::steady_clock::now();
     SampleOutputs outputs{radiance_.data(), faulted_.data(), first_.data()};
+    bool whole = crop_.width == settings_.width && crop_.height == settings_.height;
     auto add = [&](const tbb::blocked_range<size_t>& range) {
       for (size_t k = range.begin(); k < range.end(); ++k) {
+        if (whole) {
+          film_->add(order_[k], outputs, k * samples, samples);
+          continue;
+        }
         int x = int(order_[k] % uint32_t(settings_.width)) - crop_.x;
         int y = int(order_[k] / uint32_t(settings_.width)) - crop_.y;
         if (x < 0 || y < 0 || x >= crop_.width || y >= crop_.height) continue;

@@ -82,7 +82,9 @@ struct PlacedObject {
 /// Where the corners of an object's triangles stand, for kernels that see plain data only. An object that is no mesh of
 /// its own (a sphere, a mesh that is kept once for several) has none.
 struct TriangleSource {
-  const float* vertices = nullptr; ///< in world space
+  const uint32_t* materials = nullptr;
+  const uint32_t* material_slots = nullptr; ///< by primitive; null: all are of the first
+  const float* vertices = nullptr;          ///< in world space, a number more than there are
   const uint32_t* triangles = nullptr;
   const float* positions = nullptr; ///< in object space
   const float* normals = nullptr;   ///< null: flat
@@ -92,6 +94,8 @@ struct TriangleSource {
   float normal_matrix[9] = {}, linear[9] = {}; ///< by columns
   float scale = 1;
   bool mirrored = false, identity = true;
+
+  uint32_t material_of(uint32_t primitive) const { return materials[material_slots ? material_slots[primitive] : 0]; }
 };
 
 class Geometry {
@@ -114,10 +118,14 @@ public:
   /// By object.
   std::span<const TriangleSource> sources() const { return sources_; }
 
-  void closest(std::span<const Ray> rays, Hit* hits) const;
+  Hit closest(const Ray& ray) const;
+  void closest(std::span<const Ray> rays, Hit* hits) const {
+    for (size_t i = 0; i < rays.size(); ++i)
+      hits[i] = closest(rays[i]);
+  }
   /// The same for at most 16 rays from near each other, `coherent` where they also go nearly the same way. Which of two
   /// equally near hits is reported may depend on all of them.
-  void closest_together(std::span<const Ray> rays, Hit* hits, bool coherent) const;
+  void closest_together(std::span<const Ray* const> rays, Hit* hits, bool coherent) const;
   /// 1 where something opaque lies between near and far.
   void occluded(std::span<const Ray> rays, uint8_t* blocked) const;
 

@@ -24,8 +24,9 @@ HitShader::HitShader(const Scene& scene, const Geometry& geometry, const Materia
 /// A counting sort.
 void HitShader::sort() {
   std::fill(run_start_.begin(), run_start_.end(), 0);
+  const TriangleSource* sources = geometry_.sources().data();
   for (size_t k = 0; k < added_.size(); ++k) {
-    material_[k] = geometry_.objects()[added_[k].hit.object].material_of(added_[k].hit.primitive);
+    material_[k] = sources[added_[k].hit.object].material_of(added_[k].hit.primitive);
     ++run_start_[material_[k] + 1];
   }
   one_run_ = added_.empty() || run_start_[material_[0] + 1] == added_.size();

@@ -70,17 +70,18 @@ void Wavefront::generate(const Task& task) {
 void Wavefront::trace() {
   size_t count = active_.size();
   for (size_t k = 0; k < count; ++k)
-    rays_[k] = paths_[active_[k]].ray;
+    rays_[k] = &paths_[active_[k]].ray;
   stats_.rays += count;
   bool coherent = paths_[active_[0]].segments == 0; // all leave the camera at once
   for (size_t at = 0, end = 0; at < count; at = end) {
     while (end < count && packets_[active_[end]] == packets_[active_[at]])
       ++end;
-    std::span<const Ray> rays(rays_.data() + at, end - at);
+    std::span<const Ray* const> rays(rays_.data() + at, end - at);
     if (rays.size() >= (coherent ? 2 : kLeastTogether))
       scene_.geometry->closest_together(rays, hits_.data() + at, coherent);
     else
-      scene_.geometry->closest(rays, hits_.data() + at);
+      for (size_t k = at; k < end; ++k)
+        hits_[k] = scene_.geometry->closest(*rays_[k]);
   }
 }
 

@@ -96,7 +96,7 @@ private:
   std::vector<Path> paths_;       ///< group by group, in these sample by sample
   std::vector<uint32_t> packets_; ///< by path: alike for a sample of one group
   std::vector<uint32_t> active_;  ///< in the order of paths
-  std::vector<Ray> rays_;
+  std::vector<const Ray*> rays_;
   std::vector<Hit> hits_;
   std::unique_ptr<VolumeTracker> tracker_; ///< only where there are volumes
   std::vector<Flight> flights_;

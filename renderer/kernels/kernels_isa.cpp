@@ -86,41 +86,51 @@ template <class Record> MS_INLINE void store_fours(const Fours& fours, Record* c
   put(rows.x, 0), put(rows.y, 1), put(rows.z, 2), put(rows.w, 3);
 }
 
+template <class Record> MS_INLINE Vector load_vector(Record* const (&records)[kLanes], size_t first) {
+  Fours f = load_fours(records, first);
+  return {{f.x, f.y, f.z}};
+}
+
 MS_INLINE Fours fours(const Vector& v, F w) { return {v[0], v[1], v[2], w}; }
 
 /// Where members of records lie, as numbers.
 #define AT(record, member) (offsetof(record, member) / sizeof(float))
+
+/// Whole quotients, by a division of doubles, which is exact enough for any two integers of 32 bits.
+MS_INLINE U divided(U a, uint32_t b) {
+  using D = Double<F>;
+  return convert<U>(convert<D>(a) / D(double(b)));
+}
+
+/// Paths that have not left the camera yet: all alike.
+MS_INLINE void start_paths(const Path& initial, Path* const (&paths)[kLanes]) {
+  Four parts[sizeof(Path) / sizeof(Four)];
+  __builtin_memcpy(parts, &initial, sizeof parts);
+  LANES __builtin_memcpy(paths[i], parts, sizeof parts);
+}
 
 void camera_paths(const CameraRays& camera, const Path& initial, uint32_t seed, const uint32_t* pixels, uint32_t width,
                   uint32_t sample, size_t count, Path* paths) {
   uint32_t seed_hash = hash32(seed);
   for (size_t at = 0; at < count; at += kLanes) {
     size_t n = count - at < kLanes ? count - at : kLanes;
-    alignas(64) LaneInts pixel, column, row, keys;
-    alignas(64) LaneFloats origin[3], direction[3];
-    LANES {
-      pixel[i] = pixels[at + (i < n ? i : 0)];
-      column[i] = pixel[i] % width, row[i] = pixel[i] / width;
-    }
+    alignas(64) LaneInts pixel;
+    Path* starts[kLanes];
+    LANES pixel[i] = pixels[at + (i < n ? i : 0)], starts[i] = paths + at + (i < n ? i : 0);
     Draws<U> draws{hash_combine(U(seed_hash), load(pixel)), U(sample)};
-    store(draws.key, keys);
     F u, v, lens_u = F(0.5f), lens_v = F(0.5f);
     draws.two(U(0u), u, v);
     if (camera.has_lens()) draws.two(U(kLensDimension), lens_u, lens_v);
-    F x = convert<F>(bit_cast<I>(load(column))) + F(0.5f) + sample_tent(u);
-    F y = convert<F>(bit_cast<I>(load(row))) + F(0.5f) + sample_tent(v);
-    Vector o, d;
-    camera.rays(x, y, lens_u, lens_v, o, d);
-    store(o, origin), store(d, direction);
-    for (size_t i = 0; i < n; ++i) {
-      Path& path = paths[at + i];
-      __builtin_memcpy(&path, &initial, sizeof path);
-      path.ray.origin.x = origin[0][i], path.ray.origin.y = origin[1][i], path.ray.origin.z = origin[2][i];
-      path.ray.direction.x = direction[0][i], path.ray.direction.y = direction[1][i];
-      path.ray.direction.z = direction[2][i];
-      uint32_t draw[2] = {keys[i], sample};
-      __builtin_memcpy(&path.sampler, draw, sizeof path.sampler);
-    }
+    U row = divided(load(pixel), width), column = load(pixel) - row * U(width);
+    F x = convert<F>(bit_cast<I>(column)) + F(0.5f) + sample_tent(u);
+    F y = convert<F>(bit_cast<I>(row)) + F(0.5f) + sample_tent(v);
+    Vector origin, direction;
+    camera.rays(x, y, lens_u, lens_v, origin, direction);
+    start_paths(initial, starts);
+    store_fours(fours(origin, F(0.0f)), starts, AT(Path, ray.origin));
+    store_fours(fours(direction, stdlib::infinity<F>()), starts, AT(Path, ray.direction));
+    F none = F(0.0f);
+    store_fours({bit_cast<F>(draws.key), bit_cast<F>(draws.sample), none, none}, starts, AT(Path, sampler));
   }
 }
 
@@ -171,8 +181,10 @@ MS_INLINE Vector get(const PointArrays& points, Channel channel, size_t at) {
 
 void triangle_points(const TriangleSource* sources, const Met* met, size_t count, uint32_t needs, bool bends,
                      const PointArrays& out, size_t at) {
-  Corners vertices, positions, normals;
-  alignas(64) LaneFloats origin[3], direction[3], width, spread, uv[3][2];
+  Corners positions, normals;
+  const Ray* rays[kLanes];
+  const float* corners[3][kLanes];
+  alignas(64) LaneFloats width, spread, uv[3][2];
   bool wants_uv = needs & (channel_mask(kUv, 2) | channel_mask(kDpdu, 6));
   bool wants_local = bends || (needs & channel_mask(kLocal, 3));
   const uint32_t object = met[0].hit.object;
@@ -187,11 +199,10 @@ void triangle_points(const TriangleSource* sources, const Met* met, size_t count
     const Met& m = met[i < count ? i : 0];
     const TriangleSource& s = sources[m.hit.object];
     size_t triangle = size_t(m.hit.primitive) * 3;
-    const Ray& ray = *m.ray;
-    origin[0][i] = ray.origin.x, origin[1][i] = ray.origin.y, origin[2][i] = ray.origin.z;
-    direction[0][i] = ray.direction.x, direction[1][i] = ray.direction.y, direction[2][i] = ray.direction.z;
+    rays[i] = m.ray;
     width[i] = m.width, spread[i] = m.spread;
-    vertices.set(i, s.vertices, s.triangles + triangle);
+    for (size_t corner = 0; corner < 3; ++corner)
+      corners[corner][i] = s.vertices + size_t(s.triangles[triangle + corner]) * 3;
     if (wants_local) positions.set(i, s.positions, s.triangles + triangle);
     if (!any_smooth) continue;
     if (s.normals)
@@ -235,9 +246,21 @@ void triangle_points(const TriangleSource* sources, const Met* met, size_t count
     scale = load(scales);
   }
   Vector zero = {{F(0.0f), F(0.0f), F(0.0f)}};
-  TriangleHit<F> hit{load(origin), load(direction), vertices.of(0), vertices.of(1), vertices.of(2),
-                     mirrored,     identity,        zero,           zero,           zero,
-                     matrix,       smooth,          zero,           zero,           zero};
+  TriangleHit<F> hit{load_vector(rays, AT(Ray, origin)),
+                     load_vector(rays, AT(Ray, direction)),
+                     load_vector(corners[0], 0),
+                     load_vector(corners[1], 0),
+                     load_vector(corners[2], 0),
+                     mirrored,
+                     identity,
+                     zero,
+                     zero,
+                     zero,
+                     matrix,
+                     smooth,
+                     zero,
+                     zero,
+                     zero};
   if (wants_local) hit.local_a = positions.of(0), hit.local_b = positions.of(1), hit.local_c = positions.of(2);
   if (any_smooth) hit.normal_a = normals.of(0), hit.normal_b = normals.of(1), hit.normal_c = normals.of(2);
   TrianglePoint<F> p = triangle_point(hit);
@@ -265,10 +288,10 @@ void triangle_points(const TriangleSource* sources, const Met* met, size_t count
   if (needs & channel_mask(kIncident, 3)) put(out, kIncident, at, hit.direction);
   if (bends || (needs & channel_mask(kFootprint, 1))) store(footprint / scale, out.inputs[kFootprint] + at);
   if (!wants_uv) return;
-  F corners[3][2];
+  F places[3][2];
   for (int corner = 0; corner < 3; ++corner)
-    corners[corner][0] = load(uv[corner][0]), corners[corner][1] = load(uv[corner][1]);
-  TexturePoint<F> t = texture_point(p, corners);
+    places[corner][0] = load(uv[corner][0]), places[corner][1] = load(uv[corner][1]);
+  TexturePoint<F> t = texture_point(p, places);
   store(t.u, out.inputs[kUv] + at), store(t.v, out.inputs[kUv + 1] + at);
   put(out, kDpdu, at, t.dpdu), put(out, kDpdv, at, t.dpdv);
 }

@@ -8,7 +8,7 @@
 namespace moonshade::renderer {
 
 /// Index of the first cumulative share above `u`, and `u` made uniform again within it.
-uint32_t LightSet::choose(const std::vector<float>& cumulative, float& u) {
+uint32_t LightSet::choose(std::span<const float> cumulative, float& u) {
   // Where all weigh the same, the first guess is right.
   uint32_t index = std::min(uint32_t(u * float(cumulative.size())), uint32_t(cumulative.size() - 1));
   bool found = (index == 0 || cumulative[index - 1] <= u) && (index + 1 == cumulative.size() || u < cumulative[index]);
@@ -69,6 +69,14 @@ LightSet::LightSet(const Scene& scene, const Geometry& geometry, const VolumeSet
   }
   for (uint32_t id : environment_)
     if (lights_[id].kind != Kind::Around) formulas_.push_back(formula_of(lights_[id]));
+  for (const Entry& entry : lights_)
+    choices_.push_back(choice_of(entry));
+}
+
+LightSet::Choice LightSet::choice_of(const Entry& entry) const {
+  if (entry.kind == Kind::Mesh) return {entry.cumulative, entry.emitting.data(), entry.by_shader ? &entry : nullptr};
+  if (entry.kind == Kind::Sky && formulas_only_) return {entry.cumulative, nullptr, nullptr};
+  return {};
 }
 
 void LightSet::add_point_or_sun(const Light& light) {
@@ -362,26 +370,28 @@ void LightSet::look_up(ScatterBlock& block, size_t count, LightSample* others) c
   for (size_t i = 0; i < kLanes; ++i)
     block.triangles[i] = &kNone, block.sky[i] = block.delta[i] = 0, block.light_pdf[i] = 0;
   for (size_t i = 0; i < count; ++i) {
-    const Entry& entry = lights_[block.light[i]];
+    const Choice& choice = choices_[block.light[i]];
     others[i].emitter = Emitter::Known;
-    if (entry.kind == Kind::Mesh) {
-      uint32_t index = choose(entry.cumulative, block.light_u[i]);
-      block.triangles[i] = &entry.emitting[index];
-      if (entry.by_shader) ask_surface(others[i], entry.object, entry.triangles[index]);
-    } else if (entry.kind == Kind::Sky && formulas_only_) {
-      float within = block.light_u[i];
-      uint32_t band = choose(entry.cumulative, within);
-      block.height[i] = sky_height(band, within);
-      block.sky[i] = 1;
-    } else {
-      Vec3 point(block.point[0][i], block.point[1][i], block.point[2][i]);
-      others[i] = sample_of(block.light[i], point, {block.light_u[i], block.light_v[i]}, block.light_w[i]);
-      for (int c = 0; c < 3; ++c)
-        block.to_light[c][i] = others[i].direction[c], block.radiance[c][i] = others[i].radiance[c];
-      block.light_distance[i] = others[i].distance, block.light_pdf[i] = others[i].pdf;
-      block.delta[i] = others[i].delta;
+    if (choice.cumulative.empty()) {
+      look_up_other(block, i, others[i]);
+      continue;
     }
+    // Triangle or sky: no branch, which nobody could foresee.
+    uint32_t index = choose(choice.cumulative, block.light_u[i]);
+    block.triangles[i] = choice.emitting ? choice.emitting + index : &kNone;
+    block.sky[i] = !choice.emitting;
+    block.height[i] = sky_height(index, block.light_u[i]);
+    if (const Entry* entry = choice.by_shader) ask_surface(others[i], entry->object, entry->triangles[index]);
   }
+}
+
+void LightSet::look_up_other(ScatterBlock& block, size_t i, LightSample& found) const {
+  Vec3 point(block.point[0][i], block.point[1][i], block.point[2][i]);
+  found = sample_of(block.light[i], point, {block.light_u[i], block.light_v[i]}, block.light_w[i]);
+  for (int c = 0; c < 3; ++c)
+    block.to_light[c][i] = found.direction[c], block.radiance[c][i] = found.radiance[c];
+  block.light_distance[i] = found.distance, block.light_pdf[i] = found.pdf;
+  block.delta[i] = found.delta;
 }
 
 LightSample LightSet::sample_entry(const Entry& entry, const Vec3& point, const Vec2& u, float w) const {
