@@ -36,6 +36,9 @@ public:
   /// `spread` per distance.
   void add(uint32_t owner, const Ray& ray, const Hit& hit, float width, float spread) {
     added_.push_back({owner, width, spread, &ray, hit});
+    const TriangleSource& source = geometry_.sources()[hit.object];
+    if (source.vertices) __builtin_prefetch(source.triangles + size_t(hit.primitive) * 3);
+    if (source.normals) __builtin_prefetch(source.normal_corners + size_t(hit.primitive) * 3);
   }
 
   /// Shades everything added; calls visit(material, begin, end) for each material's points [begin, end), of which

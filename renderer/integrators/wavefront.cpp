@@ -88,7 +88,9 @@ void Wavefront::trace() {
 void Wavefront::take_hits() {
   shader_.clear();
   flights_.clear();
+  constexpr size_t kAhead = 8;
   for (size_t k = 0; k < active_.size(); ++k) {
+    if (k + kAhead < active_.size()) __builtin_prefetch(&paths_[active_[k + kAhead]].segments, 1);
     Path& path = paths_[active_[k]];
     ++path.segments;
     if (tracker_ && hits_[k].found() && path.media.active() != Media::kNone) {

@@ -11,9 +11,15 @@ namespace moonshade::renderer {
 uint32_t LightSet::choose(std::span<const float> cumulative, float& u) {
   // Where all weigh the same, the first guess is right.
   uint32_t index = std::min(uint32_t(u * float(cumulative.size())), uint32_t(cumulative.size() - 1));
-  bool found = (index == 0 || cumulative[index - 1] <= u) && (index + 1 == cumulative.size() || u < cumulative[index]);
-  if (!found) index = uint32_t(std::upper_bound(cumulative.begin(), cumulative.end() - 1, u) - cumulative.begin());
-  float low = index ? cumulative[index - 1] : 0, share = cumulative[index] - low;
+  // Which of few it is, no branch could foresee.
+  auto start_of = [&](uint32_t i) { return cumulative[i - (i > 0)] * float(i > 0); };
+  float low = start_of(index);
+  bool found = bool(int(low <= u) & (int(index + 1 == cumulative.size()) | int(u < cumulative[index])));
+  if (!found) {
+    index = uint32_t(std::upper_bound(cumulative.begin(), cumulative.end() - 1, u) - cumulative.begin());
+    low = start_of(index);
+  }
+  float share = cumulative[index] - low;
   u = share > 0 ? std::clamp((u - low) / share, 0.0f, 0x1.fffffep-1f) : 0.0f;
   return index;
 }
