@@ -16,7 +16,10 @@ struct World {
 
   explicit World(const std::string& text, bool watertight = true) {
     SceneReading reading = parse_lua_scene("s.lua", text, Folders());
-    EXPECT_TRUE(reading.scene) << reading.error;
+    if (!reading.scene) {
+      ADD_FAILURE() << reading.error;
+      return;
+    }
     scene = std::move(*reading.scene);
     std::string error;
     geometry = Geometry::build(scene, error, {}, watertight);
@@ -28,6 +31,12 @@ struct World {
     geometry->closest({&ray, 1}, &hit);
     return hit.found() ? std::optional(geometry->surface(ray, hit)) : std::nullopt;
   }
+  /// Where something must be there.
+  SurfacePoint point(const Vec3& from, const Vec3& towards) const {
+    std::optional<SurfacePoint> met = meet(from, towards);
+    EXPECT_TRUE(met.has_value());
+    return met.value_or(SurfacePoint{});
+  }
 };
 
 Vec3 direction(uint32_t k) {
@@ -38,18 +47,16 @@ Vec3 direction(uint32_t k) {
 
 TEST(Geometry, SpheresAreMetWhereTheyAre) {
   World world("sphere{ center = {1, 2, 3}, radius = 0.5, scale = {1, 2, 1} }"); // scale moves the centre, too
-  auto point = world.meet({10, 4, 3}, {1, 4, 3});
-  ASSERT_TRUE(point);
-  EXPECT_NEAR(point->world.x, 1.5f, 1e-5f);
-  EXPECT_NEAR(point->local.x, 0.5f, 1e-5f); // measured from the centre, in the sphere's own units
-  EXPECT_NEAR(point->distance, 8.5f, 1e-5f);
-  EXPECT_NEAR(glm::distance(point->geometric_normal, Vec3(1, 0, 0)), 0, 1e-5f);
+  SurfacePoint point = world.point({10, 4, 3}, {1, 4, 3});
+  EXPECT_NEAR(point.world.x, 1.5f, 1e-5f);
+  EXPECT_NEAR(point.local.x, 0.5f, 1e-5f); // measured from the centre, in the sphere's own units
+  EXPECT_NEAR(point.distance, 8.5f, 1e-5f);
+  EXPECT_NEAR(glm::distance(point.geometric_normal, Vec3(1, 0, 0)), 0, 1e-5f);
   EXPECT_FALSE(world.meet({10, 5.1f, 3}, {1, 5.1f, 3}));
   // From inside, the far side; the normal still points outward.
-  point = world.meet({1, 4, 3}, {9, 4, 3});
-  ASSERT_TRUE(point);
-  EXPECT_NEAR(point->world.x, 1.5f, 1e-5f);
-  EXPECT_GT(point->geometric_normal.x, 0.99f);
+  point = world.point({1, 4, 3}, {9, 4, 3});
+  EXPECT_NEAR(point.world.x, 1.5f, 1e-5f);
+  EXPECT_GT(point.geometric_normal.x, 0.99f);
 }
 
 TEST(Geometry, DerivativesAreThoseOfThePoint) {
@@ -112,10 +119,9 @@ TEST(Geometry, SurfacesDoNotShadowThemselves) {
 TEST(Geometry, MirroredMeshesKeepTheirOutside) {
   for (const char* text : {"box{}", "box{ scale = {-1, 1, 1} }", "box{ scale = {-1, -1, -1} }"}) {
     World world(text);
-    auto point = world.meet({5, 0.1f, 0.2f}, {0, 0.1f, 0.2f});
-    ASSERT_TRUE(point);
-    EXPECT_GT(point->geometric_normal.x, 0.99f) << text;
-    EXPECT_GT(point->shading_normal.x, 0.99f) << text;
+    SurfacePoint point = world.point({5, 0.1f, 0.2f}, {0, 0.1f, 0.2f});
+    EXPECT_GT(point.geometric_normal.x, 0.99f) << text;
+    EXPECT_GT(point.shading_normal.x, 0.99f) << text;
   }
 }
 
