@@ -67,7 +67,8 @@ Preparation prepare(Scene scene, ShaderSource& shaders, const Overrides& overrid
   if (prepared->materials.any_emits())
     std::erase_if(prepared->scene.lights, [](const Light& light) { return light.by_default; });
   start = std::chrono::steady_clock::now();
-  prepared->geometry = Geometry::build(prepared->scene, result.error, prepared->materials.passable());
+  prepared->geometry = Geometry::build(prepared->scene, result.error, prepared->materials.passable(),
+                                       prepared->materials.any_has_inside());
   prepared->geometry_seconds = seconds_since(start);
   if (!prepared->geometry) return result.machine_at_fault = true, std::move(result);
   prepared->volumes = std::make_unique<VolumeSet>(prepared->scene, *prepared->geometry, prepared->materials);

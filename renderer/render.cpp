@@ -16,7 +16,6 @@ namespace moonshade::renderer {
 
 namespace {
 
-constexpr size_t kBatchPaths = 2048;           // a batch's working set stays within a core's own cache
 constexpr size_t kPassPaths = size_t(1) << 20; // a pass buffer of some 12 MB
 constexpr int kBlock = Adaptive::kBlock;       // pixels
 
@@ -59,7 +58,7 @@ public:
         start_(std::chrono::steady_clock::now()) {
     pass_samples_ = uint32_t(std::clamp<size_t>(kPassPaths / order_.size(), 1, 8));
     if (PassSetup::needed(settings_.integrator)) {
-      setup_ = std::make_unique<PassSetup>(scene, controls_, arena_);
+      setup_ = std::make_unique<PassSetup>(scene, controls_, arena_, 2 * options.batch_paths);
       if (settings_.integrator == IntegratorKind::Sppm) pass_samples_ = 1; // each sample has photons of its own
     }
     make_groups();
@@ -152,7 +151,7 @@ private:
         groups_.push_back(1);
       before = group;
     }
-    size_t chunk = std::clamp<size_t>(order_.size() / 64, 64, kBatchPaths / pass_samples_);
+    size_t chunk = std::min(std::max<size_t>(order_.size() / 64, 64), options_.batch_paths / pass_samples_);
     for (size_t group = 0, pixel = 0; group < groups_.size(); ++group) {
       if (pieces_.empty() || pixel + groups_[group] - pieces_.back().pixel > chunk) pieces_.push_back({pixel, group});
       pixel += groups_[group];
@@ -179,7 +178,7 @@ private:
       }
       DefaultFloatEnvironment environment;
       auto& worker = workers_[size_t(tbb::this_task_arena::current_thread_index())];
-      if (!worker) worker = std::make_unique<Wavefront>(scene_, controls_, kBatchPaths);
+      if (!worker) worker = std::make_unique<Wavefront>(scene_, controls_, options_.batch_paths);
       uint64_t rays_before = worker->stats().rays;
       const Piece &piece = pieces_[index], &next = pieces_[index + 1];
       size_t begin = piece.pixel, end = next.pixel, at = begin * samples;
@@ -205,8 +204,13 @@ private:
   void add_to_film(uint32_t samples) {
     auto start = std::chrono::steady_clock::now();
     SampleOutputs outputs{radiance_.data(), faulted_.data(), first_.data()};
+    bool whole = crop_.width == settings_.width && crop_.height == settings_.height;
     auto add = [&](const tbb::blocked_range<size_t>& range) {
       for (size_t k = range.begin(); k < range.end(); ++k) {
+        if (whole) {
+          film_->add(order_[k], outputs, k * samples, samples);
+          continue;
+        }
         int x = int(order_[k] % uint32_t(settings_.width)) - crop_.x;
         int y = int(order_[k] / uint32_t(settings_.width)) - crop_.y;
         if (x < 0 || y < 0 || x >= crop_.width || y >= crop_.height) continue;

@@ -34,6 +34,9 @@ struct RenderOptions {
   double seconds = 0;                      ///< stop after the pass in hand; 0: no limit
   std::optional<Crop> crop = std::nullopt; ///< within the image
   double noise = 0;                        ///< stop where the estimated error is less (adaptive.h); 0: never
+  /// Paths that are carried together, at least 256. Changes no pixel: a batch's working set of this size stays within a
+  /// core's own cache.
+  size_t batch_paths = 2048;
   FilmContents contents = {};
   /// Called after each pass by the thread that called render(), and, with `ended`, where it stops before its end.
   std::function<void(RenderState&, bool ended)> after_pass = nullptr;

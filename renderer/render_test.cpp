@@ -195,6 +195,46 @@ const std::string kBusy = R"(
   box{ center = {0, 0.5, 2}, size = 0.5, rotate = {0, 30, 0} }
   light{ type = "sun" } light{ type = "sky" } light{ type = "area", center = {0, 4, 0} } light{ type = "point", position = {2, 3, 3} })";
 
+TEST(Cracks, DoNotShowInClosedMeshes) {
+  // From within a black sphere of many triangles under a white sky all is black. A material that light goes into,
+  // anywhere in the scene, makes all of it watertight.
+  testing::TemporaryFolder folder;
+  std::string ball;
+  constexpr int kSides = 60;
+  for (int r = 0; r <= kSides; ++r)
+    for (int s = 0; s < kSides; ++s) {
+      float theta = kPi * float(r) / kSides, phi = 2 * kPi * float(s) / kSides, sine = std::sin(theta);
+      if (r == kSides) sine = 0;
+      ball += "v " + std::to_string(sine * std::cos(phi)) + " " + std::to_string(std::cos(theta)) + " " +
+              std::to_string(sine * std::sin(phi)) + "\n";
+    }
+  for (int r = 0; r < kSides; ++r)
+    for (int s = 0; s < kSides; ++s) {
+      int a = r * kSides + s + 1, b = r * kSides + (s + 1) % kSides + 1;
+      ball += "f " + std::to_string(a) + " " + std::to_string(b) + " " + std::to_string(b + kSides) + " " +
+              std::to_string(a + kSides) + "\n";
+    }
+  std::string file = folder.write("ball.obj", ball);
+  for (const char* other : {"", "sphere{ radius = 0.1, material = material{ transmission = 1 } }"}) {
+    std::string text = "camera{ from = {0.3, 0.1, 0.2}, to = {1, 0.2, 0.1}, fov = 120 } light{ type = 'sky' }\n"
+                       "obj{ file = 'ball.obj', material = material{ color = 0, ior = 1 } } " +
+                       std::string(other) + settings("samples = 1024");
+    Folders folders = folder.folders();
+    SceneReading reading = parse_lua_scene(folder / "scene.lua", text, folders);
+    ASSERT_TRUE(reading.scene) << reading.error;
+    testing::FixedShaders shaders;
+    Preparation preparation = prepare(std::move(*reading.scene), shaders);
+    ASSERT_TRUE(preparation.prepared) << preparation.error;
+    EXPECT_EQ(preparation.prepared->geometry->watertight(), *other != 0);
+    RenderProgress progress;
+    RenderResult result = render(*preparation.prepared, {}, progress);
+    size_t bright = 0;
+    for (const Vec3& pixel : result.picture.pixels)
+      bright += !is_black(pixel);
+    EXPECT_LE(bright, *other ? 0u : 1u) << other;
+  }
+}
+
 TEST(Determinism, AnyNumberOfThreadsGivesTheSameBits) {
   Picture one = render_text(kBusy, nullptr, {.threads = 1}).result.picture;
   for (unsigned threads : {2u, 3u, 7u}) {

@@ -5,6 +5,7 @@
 
 #include "renderer/geometry/embree_api.h"
 #include "renderer/geometry/float_environment.h"
+#include "stdlib/lane.h"
 
 #include <cstring>
 #include <map>
@@ -163,12 +164,15 @@ bool intersect_sphere(const PlacedObject& placed, const Vec3& origin, const Vec3
 /// Everything a kernel needs to know of an object's triangles.
 static TriangleSource source_of(const PlacedObject& placed) {
   TriangleSource source;
+  source.materials = placed.object->materials.data();
   for (int k = 0; k < 9; ++k)
     source.normal_matrix[k] = placed.normal_matrix[k / 3][k % 3], source.linear[k] = placed.linear[k / 3][k % 3];
   source.scale = placed.scale;
   source.mirrored = placed.mirrored, source.identity = placed.identity;
-  if (placed.object->shape != Shape::Mesh || placed.vertices.kept().empty()) return source;
+  if (placed.object->shape != Shape::Mesh) return source;
   const Mesh& mesh = *placed.object->mesh;
+  if (!mesh.material_slots.empty()) source.material_slots = mesh.material_slots.data();
+  if (placed.vertices.kept().empty()) return source;
   auto floats = [](const auto& values) { return values.empty() ? nullptr : &values[0][0]; };
   source.vertices = floats(placed.vertices.kept());
   source.triangles = floats(mesh.triangles);
@@ -179,8 +183,10 @@ static TriangleSource source_of(const PlacedObject& placed) {
   return source;
 }
 
-std::unique_ptr<Geometry> Geometry::build(const Scene& scene, std::string& error, std::vector<uint8_t> passable) {
+std::unique_ptr<Geometry> Geometry::build(const Scene& scene, std::string& error, std::vector<uint8_t> passable,
+                                          bool watertight) {
   std::unique_ptr<Geometry> geometry(new Geometry);
+  geometry->watertight_ = watertight;
   geometry->passable_ = std::move(passable);
   geometry->objects_.reserve(scene.objects.size()); // Embree keeps pointers to its elements
   std::map<const Mesh*, size_t> uses;
@@ -196,6 +202,12 @@ std::unique_ptr<Geometry> Geometry::build(const Scene& scene, std::string& error
   DefaultFloatEnvironment restore; // committing flushes denormals in this thread
   if (!geometry->commit(error)) return nullptr;
   return geometry;
+}
+
+RTCScene Geometry::new_scene() const {
+  RTCScene scene = rtcNewScene(embree_->device);
+  rtcSetSceneFlags(scene, watertight_ ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
+  return scene;
 }
 
 RTCGeometry Geometry::triangles(PlacedObject& placed, bool instanced) {
@@ -222,8 +234,7 @@ RTCGeometry Geometry::triangles(PlacedObject& placed, bool instanced) {
 RTCGeometry Geometry::instance_of(PlacedObject& placed) {
   RTCScene& shared = embree_->shared[placed.object->mesh.get()];
   if (!shared) {
-    shared = rtcNewScene(embree_->device);
-    rtcSetSceneFlags(shared, RTC_SCENE_FLAG_ROBUST);
+    shared = new_scene();
     RTCGeometry mesh = triangles(placed, true);
     // Any of the objects may let light through; those that do not pass the filter at once.
     bool any = std::any_of(objects_.begin(), objects_.end(), [&](const PlacedObject& other) {
@@ -280,8 +291,7 @@ bool Geometry::commit(std::string& error) {
   rtcSetDeviceErrorFunction(
       e.device, [](void* user, RTCError, const char* text) { static_cast<Embree*>(user)->error = text ? text : "?"; },
       &e);
-  e.scene = rtcNewScene(e.device);
-  rtcSetSceneFlags(e.scene, RTC_SCENE_FLAG_ROBUST);
+  e.scene = new_scene();
   rtcSetSceneBuildQuality(e.scene, quality_for(triangle_count()));
   for (unsigned id = 0; id < objects_.size(); ++id)
     attach(id);
@@ -296,30 +306,55 @@ static Hit hit_of(unsigned geometry, unsigned instance, unsigned primitive, floa
   return {instance != RTC_INVALID_GEOMETRY_ID ? instance : geometry, primitive, distance};
 }
 
-void Geometry::closest(std::span<const Ray> rays, Hit* hits) const {
+Hit Geometry::closest(const Ray& ray) const {
   EmbreeQuery with;
   RTCRayHit query;
-  for (size_t i = 0; i < rays.size(); ++i) {
-    set_ray(query.ray, rays[i]);
-    query.hit.geomID = query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    query.hit.primID = 0;
-    embree_intersect(embree_->scene, with, query);
-    hits[i] = hit_of(query.hit.geomID, query.hit.instID[0], query.hit.primID, query.ray.tfar);
-  }
+  set_ray(query.ray, ray);
+  query.hit.geomID = query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  query.hit.primID = 0;
+  embree_intersect(embree_->scene, with, query);
+  return hit_of(query.hit.geomID, query.hit.instID[0], query.hit.primID, query.ray.tfar);
 }
 
-void Geometry::closest_together(std::span<const Ray> rays, Hit* hits, bool coherent) const {
+using Four = stdlib::Wide<float, 4>;
+
+/// Four numbers of each of four records, side by side.
+static void transpose(const float* const (&records)[4], float* x, float* y, float* z, float* w) {
+  Four r[4];
+  for (int k = 0; k < 4; ++k)
+    std::memcpy(&r[k], records[k], sizeof r[k]);
+  Four a = __builtin_shufflevector(r[0], r[1], 0, 4, 1, 5), b = __builtin_shufflevector(r[0], r[1], 2, 6, 3, 7);
+  Four c = __builtin_shufflevector(r[2], r[3], 0, 4, 1, 5), d = __builtin_shufflevector(r[2], r[3], 2, 6, 3, 7);
+  Four columns[4] = {__builtin_shufflevector(a, c, 0, 1, 4, 5), __builtin_shufflevector(a, c, 2, 3, 6, 7),
+                     __builtin_shufflevector(b, d, 0, 1, 4, 5), __builtin_shufflevector(b, d, 2, 3, 6, 7)};
+  float* to[4] = {x, y, z, w};
+  for (int k = 0; k < 4; ++k)
+    std::memcpy(to[k], &columns[k], sizeof columns[k]);
+}
+
+/// Places behind the last ray repeat the first.
+static void set_rays(RTCRay16& to, std::span<const Ray* const> rays) {
+  for (size_t i = 0; i < 16; i += 4) {
+    const float *begins[4], *ends[4];
+    for (size_t k = 0; k < 4; ++k) {
+      const Ray& ray = *rays[i + k < rays.size() ? i + k : 0];
+      begins[k] = &ray.origin.x, ends[k] = &ray.direction.x;
+    }
+    transpose(begins, to.org_x + i, to.org_y + i, to.org_z + i, to.tnear + i);
+    transpose(ends, to.dir_x + i, to.dir_y + i, to.dir_z + i, to.tfar + i);
+  }
+  for (size_t i = 0; i < 16; ++i)
+    to.time[i] = 0, to.mask[i] = UINT32_MAX, to.id[i] = 0, to.flags[i] = 0;
+}
+
+void Geometry::closest_together(std::span<const Ray* const> rays, Hit* hits, bool coherent) const {
   constexpr size_t kPacket = 16;
   EmbreeQuery with(coherent);
   alignas(64) int valid[kPacket];
   RTCRayHit16 query;
+  set_rays(query.ray, rays);
   for (size_t i = 0; i < kPacket; ++i) {
     valid[i] = i < rays.size() ? -1 : 0;
-    const Ray& ray = rays[i < rays.size() ? i : 0];
-    query.ray.org_x[i] = ray.origin.x, query.ray.org_y[i] = ray.origin.y, query.ray.org_z[i] = ray.origin.z;
-    query.ray.dir_x[i] = ray.direction.x, query.ray.dir_y[i] = ray.direction.y, query.ray.dir_z[i] = ray.direction.z;
-    query.ray.tnear[i] = ray.near, query.ray.tfar[i] = ray.far;
-    query.ray.time[i] = 0, query.ray.mask[i] = UINT32_MAX, query.ray.id[i] = 0, query.ray.flags[i] = 0;
     query.hit.geomID[i] = query.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
     query.hit.primID[i] = 0;
   }

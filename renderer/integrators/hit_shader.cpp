@@ -10,23 +10,34 @@ HitShader::HitShader(const Scene& scene, const Geometry& geometry, const Materia
       batch_(capacity, scene.settings.time, scene.settings.frame), sorted_(capacity), material_(capacity),
       run_start_(materials.size() + 1) {
   added_.reserve(capacity);
-  for (std::vector<float>* array : {&distance_, &offset_, &outward_[0], &outward_[1], &outward_[2]})
+  for (std::vector<float>* array : {&distance_, &offset_, &width_, &outward_[0], &outward_[1], &outward_[2]})
     array->resize(capacity + kLanes);
   for (size_t c = 0; c < std::size(arrays_.inputs); ++c)
     arrays_.inputs[c] = batch_.inputs[c].data();
   arrays_.backface = batch_.backface.data();
   arrays_.id = batch_.id.data();
-  arrays_.distance = distance_.data(), arrays_.offset = offset_.data();
+  arrays_.distance = distance_.data(), arrays_.offset = offset_.data(), arrays_.width = width_.data();
   for (int c = 0; c < 3; ++c)
     arrays_.outward[c] = outward_[c].data();
 }
 
-/// A counting sort.
+/// Asks for what the corners of a triangle have; its indices are there since the hit was added.
+static void fetch(const float* values, const uint32_t* indices, uint32_t triangle) {
+  for (size_t corner = 0; corner < 3; ++corner)
+    __builtin_prefetch(values + size_t(indices[size_t(triangle) * 3 + corner]) * 3);
+}
+
+/// A counting sort, which also asks for the corners that are soon needed: they lie anywhere in memory.
 void HitShader::sort() {
   std::fill(run_start_.begin(), run_start_.end(), 0);
+  const TriangleSource* sources = geometry_.sources().data();
   for (size_t k = 0; k < added_.size(); ++k) {
-    material_[k] = geometry_.objects()[added_[k].hit.object].material_of(added_[k].hit.primitive);
+    const Hit& hit = added_[k].hit;
+    const TriangleSource& source = sources[hit.object];
+    material_[k] = source.material_of(hit.primitive);
     ++run_start_[material_[k] + 1];
+    if (source.vertices) fetch(source.vertices, source.triangles, hit.primitive);
+    if (source.normals) fetch(source.normals, source.normal_corners, hit.primitive);
   }
   one_run_ = added_.empty() || run_start_[material_[0] + 1] == added_.size();
   for (size_t m = 1; m < run_start_.size(); ++m)
@@ -59,7 +70,7 @@ void HitShader::place(uint32_t needs, bool bends, size_t begin, size_t end) {
   const TriangleSource* sources = geometry_.sources().data();
   for (size_t at = begin; at < end; at += kLanes) {
     size_t count = std::min(kLanes, end - at);
-    Met* block = met() + at;
+    const Met* block = met() + at;
     bool triangles = std::all_of(block, block + count, [&](const Met& m) { return sources[m.hit.object].vertices; });
     if (triangles)
       kernels_.triangle_points(sources, block, count, needs, bends, arrays_, at);
@@ -76,10 +87,10 @@ static void store(const PointArrays& arrays, Channel channel, size_t k, const Ve
 
 /// What the kernel does for triangles, for a point of anything.
 void HitShader::place_one(uint32_t needs, bool bends, size_t k) {
-  Met& met = this->met()[k];
+  const Met& met = this->met()[k];
   SurfacePoint s = geometry_.surface(*met.ray, met.hit);
   const Vec3& incident = met.ray->direction;
-  met.width += met.spread * s.distance;
+  width_[k] = met.width + met.spread * s.distance;
   bool backface = glm::dot(s.geometric_normal, incident) > 0;
   float side = backface ? -1.0f : 1.0f;
   batch_.backface[k] = backface;
@@ -97,7 +108,7 @@ void HitShader::place_one(uint32_t needs, bool bends, size_t k) {
   batch_.inputs[kUv][k] = s.uv.x, batch_.inputs[kUv + 1][k] = s.uv.y;
   store(arrays_, kDpdu, k, s.dpdu);
   store(arrays_, kDpdv, k, s.dpdv);
-  batch_.inputs[kFootprint][k] = met.width / geometry_.objects()[met.hit.object].scale;
+  batch_.inputs[kFootprint][k] = width_[k] / geometry_.objects()[met.hit.object].scale;
 }
 
 SurfaceValues HitShader::values(size_t k) const {

@@ -36,6 +36,9 @@ public:
   /// `spread` per distance.
   void add(uint32_t owner, const Ray& ray, const Hit& hit, float width, float spread) {
     added_.push_back({owner, width, spread, &ray, hit});
+    const TriangleSource& source = geometry_.sources()[hit.object];
+    if (source.vertices) __builtin_prefetch(source.triangles + size_t(hit.primitive) * 3);
+    if (source.normals) __builtin_prefetch(source.normal_corners + size_t(hit.primitive) * 3);
   }
 
   /// Shades everything added; calls visit(material, begin, end) for each material's points [begin, end), of which
@@ -54,7 +57,7 @@ public:
   const Hit& hit(size_t k) const { return met()[k].hit; }
   const Ray& ray(size_t k) const { return *met()[k].ray; }
   /// Of the footprint at the point, in world units.
-  float width(size_t k) const { return met()[k].width; }
+  float width(size_t k) const { return width_[k]; }
   ShadedPoint point(size_t k) const {
     return {vector(kWorld, k), vector(kGeometric, k), vector(kNormal, k), distance_[k], offset_[k]};
   }
@@ -82,14 +85,13 @@ private:
   Vec3 vector(Channel channel, size_t k) const {
     return {batch_.inputs[channel][k], batch_.inputs[size_t(channel) + 1][k], batch_.inputs[size_t(channel) + 2][k]};
   }
-  Met* met() { return one_run_ ? added_.data() : sorted_.data(); }
   const Met* met() const { return one_run_ ? added_.data() : sorted_.data(); }
 
   const Geometry& geometry_;
   const MaterialSet& materials_;
   const Kernels& kernels_;
   ShadingBatch batch_;
-  std::vector<float> distance_, offset_, outward_[3];
+  std::vector<float> distance_, offset_, width_, outward_[3];
   PointArrays arrays_;
   std::vector<Met> added_, sorted_; ///< as added; sorted by material, within which they keep their order
   bool one_run_ = false;            ///< of one material all: `added_` is sorted already

@@ -130,14 +130,19 @@ void IrradianceCache::gather(std::span<const Place> places, uint32_t first, uint
     if (!(light.pdf > 0) || is_black(light.radiance) || cosine <= 0) continue;
     Shadow shadow;
     shadow.ray = {s.world + normal * s.offset, 0, light.direction,
-                  light.distance == kInfinity ? kInfinity : light.distance * (1 - 1e-4f) - s.offset};
+                  light.distance == kInfinity ? kInfinity : light.distance * kShadowReach - s.offset};
     shadow.owner = uint32_t(k);
     shadow.contribution = albedo * light.radiance * (cosine / light.pdf);
-    shadow.width = width * kSpacing;
-    shadow.emitter = light.emitter;
-    shadow.light = {light.object, light.primitive, light.distance};
-    shadow.sampler = sampler.fork(round);
-    worker.shadows.add(shadow);
+    if (!worker.shadows.wants_details()) {
+      worker.shadows.add(shadow);
+      continue;
+    }
+    ShadowDetails details;
+    details.width = width * kSpacing;
+    details.emitter = light.emitter;
+    details.light = {light.object, light.primitive, light.distance};
+    details.sampler = sampler.fork(round);
+    worker.shadows.add(shadow, details);
   }
   worker.shadows.trace(worker.faults, worker.stats, bring);
 }

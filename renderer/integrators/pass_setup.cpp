@@ -9,8 +9,6 @@ namespace moonshade::renderer {
 
 namespace {
 
-constexpr uint32_t kBatchPhotons = 4096;
-
 /// Of all passes' variance and bias together, alpha = 2/3 leaves the least (Knaus and Zwicker 2011).
 float radius_scale(uint32_t pass) {
   constexpr double kAlpha = 2.0 / 3;
@@ -22,17 +20,17 @@ float radius_scale(uint32_t pass) {
 
 } // namespace
 
-PassSetup::PassSetup(const PreparedScene& scene, VolumeControls& controls, tbb::task_arena& arena)
-    : scene_(scene), controls_(controls), arena_(arena), focus_(focus_of(scene)),
-      source_(*scene.geometry, *scene.lights, focus_.center, focus_.radius), workers_(size_t(arena.max_concurrency())) {
-}
+PassSetup::PassSetup(const PreparedScene& scene, VolumeControls& controls, tbb::task_arena& arena, size_t batch_photons)
+    : scene_(scene), controls_(controls), arena_(arena), batch_photons_(uint32_t(batch_photons)),
+      focus_(focus_of(scene)), source_(*scene.geometry, *scene.lights, focus_.center, focus_.radius),
+      workers_(size_t(arena.max_concurrency())) {}
 
 void PassSetup::prepare(uint32_t pass) {
   if (scene_.scene.settings.integrator == IntegratorKind::Irradiance) {
     if (!cache_) cache_ = std::make_unique<IrradianceCache>(scene_, arena_, cache_stats_, cache_faults_);
     return;
   }
-  uint32_t count = scene_.scene.settings.photons, tasks = (count + kBatchPhotons - 1) / kBatchPhotons;
+  uint32_t count = scene_.scene.settings.photons, tasks = (count + batch_photons_ - 1) / batch_photons_;
   std::vector<std::vector<Photon>> parts(tasks);
   arena_.execute([&] {
     tbb::parallel_for(
@@ -40,10 +38,10 @@ void PassSetup::prepare(uint32_t pass) {
         [&](const tbb::blocked_range<uint32_t>& range) {
           DefaultFloatEnvironment environment;
           auto& worker = workers_[size_t(tbb::this_task_arena::current_thread_index())];
-          if (!worker) worker = std::make_unique<PhotonTracer>(scene_, source_, controls_, kBatchPhotons);
+          if (!worker) worker = std::make_unique<PhotonTracer>(scene_, source_, controls_, batch_photons_);
           for (uint32_t task = range.begin(); task < range.end(); ++task) {
-            uint32_t first = task * kBatchPhotons;
-            worker->trace(pass, first, std::min(kBatchPhotons, count - first), parts[task]);
+            uint32_t first = task * batch_photons_;
+            worker->trace(pass, first, std::min(batch_photons_, count - first), parts[task]);
           }
         },
         tbb::simple_partitioner());

@@ -15,8 +15,8 @@ public:
     return integrator == IntegratorKind::Sppm || integrator == IntegratorKind::Irradiance;
   }
 
-  /// All outlive this.
-  PassSetup(const PreparedScene& scene, VolumeControls& controls, tbb::task_arena& arena);
+  /// All outlive this. `batch_photons` are traced together.
+  PassSetup(const PreparedScene& scene, VolumeControls& controls, tbb::task_arena& arena, size_t batch_photons);
 
   void prepare(uint32_t pass);
   const PhotonMap& photons() const { return photons_; }
@@ -28,6 +28,7 @@ private:
   const PreparedScene& scene_;
   VolumeControls& controls_;
   tbb::task_arena& arena_;
+  uint32_t batch_photons_;
   Focus focus_;
   PhotonSource source_;
   std::vector<std::unique_ptr<PhotonTracer>> workers_;

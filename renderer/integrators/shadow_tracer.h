@@ -9,11 +9,9 @@
 
 namespace moonshade::renderer {
 
-struct Shadow {
-  Ray ray;
-  uint32_t owner = 0;
-  Vec3 contribution{0}; ///< where nothing is in between
-  float width = 0, spread = 0;
+/// What else there is to know of a shadow where surfaces or volumes let light through, or shaders say what lights send.
+struct ShadowDetails {
+  float width = 0, spread = 0; ///< of the footprint
   Emitter emitter = Emitter::Known;
   Hit light{}; ///< Emitter::Surface: where the ray ends; Emitter::Volume: the object
   Media media{};
@@ -25,19 +23,29 @@ class ShadowTracer {
 public:
   ShadowTracer(const PreparedScene& scene, VolumeControls& controls, size_t capacity);
 
-  bool full() const { return shadows_.size() == capacity_; }
-  bool empty() const { return shadows_.empty(); }
-  void add(const Shadow& shadow) {
-    shadows_.push_back(shadow);
-    asks_ |= shadow.emitter != Emitter::Known;
+  /// For how many more there is room.
+  size_t room() const { return capacity_ - count_; }
+  bool empty() const { return count_ == 0; }
+  bool wants_details() const { return wants_details_; }
+  void add(const Shadow& shadow) { shadows_[count_++] = shadow; }
+  /// Where details are wanted.
+  void add(const Shadow& shadow, const ShadowDetails& details) {
+    details_[count_] = details;
+    add(shadow);
+  }
+  /// Those of them that are `wanted` (not 0), where no details are.
+  void add(const Shadow* shadows, const uint32_t* wanted, size_t count) {
+    for (size_t i = 0; i < count; ++i) {
+      shadows_[count_] = shadows[i]; // there is a place for one too many: no branch that nobody foresees
+      count_ += wanted[i] != 0;
+    }
   }
   /// Afterwards contributions are what arrives; they are shown in the order in which they were added.
   template <typename Deliver> void trace(FaultLog& faults, WorkerStats& stats, Deliver deliver) {
     arrive(faults, stats);
-    for (const Shadow& shadow : shadows_)
-      if (!is_black(shadow.contribution)) deliver(shadow.owner, shadow.contribution);
-    shadows_.clear();
-    asks_ = false;
+    for (size_t k = 0; k < count_; ++k)
+      if (!is_black(shadows_[k].contribution)) deliver(shadows_[k].owner, shadows_[k].contribution);
+    count_ = 0;
   }
 
 private:
@@ -48,11 +56,12 @@ private:
   void ask_emitters(FaultLog& faults, WorkerStats& stats);
 
   const PreparedScene& scene_;
-  size_t capacity_;
-  std::vector<Shadow> shadows_;
+  size_t capacity_, count_ = 0;
+  bool wants_details_;
+  std::vector<Shadow> shadows_;        ///< one more than there may be
+  std::vector<ShadowDetails> details_; ///< parallel to them, or empty
   std::vector<Ray> rays_;
   std::vector<uint8_t> blocked_;
-  bool asks_ = false; ///< some shadow's emitter is a shader
   // Only where something lets light through, or a light's emission comes from a shader.
   std::unique_ptr<HitShader> shader_;
   MissShader miss_shader_;

@@ -70,24 +70,27 @@ void Wavefront::generate(const Task& task) {
 void Wavefront::trace() {
   size_t count = active_.size();
   for (size_t k = 0; k < count; ++k)
-    rays_[k] = paths_[active_[k]].ray;
+    rays_[k] = &paths_[active_[k]].ray;
   stats_.rays += count;
   bool coherent = paths_[active_[0]].segments == 0; // all leave the camera at once
   for (size_t at = 0, end = 0; at < count; at = end) {
     while (end < count && packets_[active_[end]] == packets_[active_[at]])
       ++end;
-    std::span<const Ray> rays(rays_.data() + at, end - at);
+    std::span<const Ray* const> rays(rays_.data() + at, end - at);
     if (rays.size() >= (coherent ? 2 : kLeastTogether))
       scene_.geometry->closest_together(rays, hits_.data() + at, coherent);
     else
-      scene_.geometry->closest(rays, hits_.data() + at);
+      for (size_t k = at; k < end; ++k)
+        hits_[k] = scene_.geometry->closest(*rays_[k]);
   }
 }
 
 void Wavefront::take_hits() {
   shader_.clear();
   flights_.clear();
+  constexpr size_t kAhead = 8;
   for (size_t k = 0; k < active_.size(); ++k) {
+    if (k + kAhead < active_.size()) __builtin_prefetch(&paths_[active_[k + kAhead]].segments, 1);
     Path& path = paths_[active_[k]];
     ++path.segments;
     if (tracker_ && hits_[k].found() && path.media.active() != Media::kNone) {
@@ -161,17 +164,9 @@ void Wavefront::scatter_in_volume(uint32_t index, const Flight& flight) {
   if (light.pdf > 0 && !is_black(light.radiance)) {
     float phase = phase_hg(glm::dot(path.ray.direction, light.direction), flight.anisotropy);
     float weight = light.delta || !goes_on ? 1.0f : power_heuristic(light.pdf, phase);
-    if (shadows_.full()) trace_shadows();
-    Shadow shadow;
-    shadow.ray = {point, 0, light.direction, light.distance == kInfinity ? kInfinity : light.distance * (1 - 1e-4f)};
-    shadow.owner = index;
-    shadow.contribution = path.throughput * light.radiance * (phase * weight / light.pdf);
-    shadow.width = path.width, shadow.spread = path.spread;
-    shadow.emitter = light.emitter;
-    shadow.light = {light.object, light.primitive, light.distance};
-    shadow.media = path.media;
-    shadow.sampler = path.sampler.fork(2 * path.segments + 1);
-    shadows_.add(shadow);
+    float far = light.distance == kInfinity ? kInfinity : light.distance * kShadowReach;
+    Vec3 contribution = path.throughput * light.radiance * (phase * weight / light.pdf);
+    add_shadow({{point, 0, light.direction, far}, contribution, index}, light, path.width, path.spread);
   }
   path.alive = goes_on && survives(path);
   if (!path.alive) return;
@@ -273,24 +268,28 @@ bool Wavefront::survives(Path& path) {
   return true;
 }
 
+/// From point `k`.
 void Wavefront::add_shadow(uint32_t path, size_t k, const LightSample& light, const Vec3& contribution) {
-  if (shadows_.full()) trace_shadows();
   const ShadedPoint s = shader_.point(k);
-  // The end stops short of the light's own surface.
-  float far = light.distance == kInfinity ? kInfinity : light.distance * (1 - 1e-4f) - s.offset;
+  float far = light.distance == kInfinity ? kInfinity : light.distance * kShadowReach - s.offset;
   float side = glm::dot(light.direction, s.geometric_normal) < 0 ? -1.0f : 1.0f;
-  Shadow shadow;
-  shadow.ray = {s.world + s.geometric_normal * (s.offset * side), 0, light.direction, far};
-  shadow.owner = path;
-  shadow.contribution = contribution;
-  shadow.width = shader_.width(k), shadow.spread = paths_[path].spread;
-  shadow.emitter = light.emitter;
-  shadow.light = {light.object, light.primitive, light.distance};
+  Vec3 origin = s.world + s.geometric_normal * (s.offset * side);
+  add_shadow({{origin, 0, light.direction, far}, contribution, path}, light, shader_.width(k), paths_[path].spread);
+}
+
+void Wavefront::add_shadow(const Shadow& shadow, const LightSample& light, float width, float spread) {
+  if (shadows_.room() == 0) trace_shadows();
+  if (!shadows_.wants_details()) return shadows_.add(shadow);
+  ShadowDetails details;
+  details.width = width, details.spread = spread;
+  details.emitter = light.emitter;
+  details.light = {light.object, light.primitive, light.distance};
   if (tracker_) {
-    shadow.media = paths_[path].media;
-    shadow.sampler = paths_[path].sampler.fork(2 * paths_[path].segments + 1);
+    const Path& path = paths_[shadow.owner];
+    details.media = path.media;
+    details.sampler = path.sampler.fork(2 * path.segments + 1);
   }
-  shadows_.add(shadow);
+  shadows_.add(shadow, details);
 }
 
 void Wavefront::trace_shadows() {

@@ -50,6 +50,7 @@ private:
   void scatter_diffuse(const CompiledMaterial& material, size_t begin, size_t end);
   void scatter_block(const CompiledMaterial& material, const size_t* points, size_t count);
   void load_block(const CompiledMaterial& material, const size_t* points, size_t count);
+  void add_shadows(size_t count);
   void add_emission(Path& path, const CompiledMaterial& material, size_t k, const SurfaceValues& values);
   void sample_light(Path& path, uint32_t index, size_t k, const Bsdf& bsdf, uint8_t lobes, bool both_ways);
   bool sample_bsdf(Path& path, size_t k, const Bsdf& bsdf, uint8_t lobes);
@@ -64,6 +65,7 @@ private:
   void go_straight(Path& path, size_t k);
   bool survives(Path& path);
   void add_shadow(uint32_t path, size_t k, const LightSample& light, const Vec3& contribution);
+  void add_shadow(const Shadow& shadow, const LightSample& light, float width, float spread);
   void trace_shadows();
   static uint32_t dimension(const Path& path, Draw draw) { return dimension_of(path.segments, draw); }
   void deliver(const Task& task, const SampleOutputs& out);
@@ -94,7 +96,7 @@ private:
   std::vector<Path> paths_;       ///< group by group, in these sample by sample
   std::vector<uint32_t> packets_; ///< by path: alike for a sample of one group
   std::vector<uint32_t> active_;  ///< in the order of paths
-  std::vector<Ray> rays_;
+  std::vector<const Ray*> rays_;
   std::vector<Hit> hits_;
   std::unique_ptr<VolumeTracker> tracker_; ///< only where there are volumes
   std::vector<Flight> flights_;

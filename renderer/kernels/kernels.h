@@ -18,7 +18,7 @@ inline constexpr size_t kLanes = 16;
 /// What a ray has met, in order to be shaded.
 struct Met {
   uint32_t owner;
-  float width, spread; ///< of the footprint: at the ray's origin (once shaded: at the point), growth per distance
+  float width, spread; ///< of the footprint: at the ray's origin, growth per distance
   const Ray* ray;
   Hit hit;
 };
@@ -28,8 +28,8 @@ struct PointArrays {
   float* inputs[24]; ///< of a ShadingBatch, by Channel
   uint8_t* backface;
   int64_t* id;
-  float *distance, *offset;
-  float* outward[3]; ///< the shading normal before it is turned to the viewer
+  float *distance, *offset, *width; ///< `width`: of the footprint, in world units
+  float* outward[3];                ///< the shading normal before it is turned to the viewer
 };
 
 /// Derivatives of height by p, P and uv, three arrays each (two by uv), or null where it has none.
@@ -42,25 +42,28 @@ struct HeightArrays {
 using LaneFloats = float[kLanes];
 using LaneInts = uint32_t[kLanes];
 
-/// Points that scatter diffusely, and all that is drawn and found for them.
+/// Points that scatter diffusely, and all that is drawn and found for them. Lanes that nobody asked for repeat the
+/// first.
 struct alignas(64) ScatterBlock {
-  // Of paths and points, by `load_vertices`.
-  LaneFloats point[3], normal[3], geometric[3], throughput[3], eta2;
+  // Of points and materials, by who fills the block.
+  Path* paths[kLanes];
+  LaneFloats point[3], normal[3], geometric[3], offset, width, color[3], scale;
+  LaneInts owner;
+  // Of paths, and drawn for them.
+  LaneFloats throughput[3], eta2, spread;
   LaneInts segments, bounces, key, sample;
-  // Drawn.
   LaneInts light;
   LaneFloats light_u, light_v, light_w, direction_u, direction_v, survival;
-  // Where a light is: a triangle's corners (`area` not 0), or a direction of the surroundings that are formulas
-  // (`sky` not 0); or else found already.
-  LaneInts area, sky, one_sided, delta;
-  LaneFloats corner[3][3], density, side, emission[3], height;
+  // Where a light is: on a triangle, or in a direction of the surroundings that are formulas (`sky` not 0); or else
+  // found already.
+  const LightTriangle* triangles[kLanes];
+  LaneInts sky, delta;
+  LaneFloats height;
   // What it sends.
   LaneFloats to_light[3], light_distance, radiance[3], light_pdf;
-  // What scatters.
-  LaneFloats color[3], scale;
-  // Results: what arrives from the light if nothing is in between, and the way on.
-  LaneFloats contribution[3], direction[3], pdf;
-  LaneInts lit, survives;
+  // Result: rays towards the lights, where `lit` is not 0.
+  Shadow shadows[kLanes];
+  LaneInts lit;
 };
 
 struct Kernels {
@@ -69,7 +72,7 @@ struct Kernels {
                        uint32_t width, uint32_t sample, size_t count, Path* paths);
   /// Points of at most 16 hits, all on triangles of `sources` (by object), into places from `at` on: the inputs of
   /// `needs` (a bit a channel), and what integrators ask for. Normals are final, or (`bends`) yet to be bent.
-  void (*triangle_points)(const TriangleSource* sources, Met* met, size_t count, uint32_t needs, bool bends,
+  void (*triangle_points)(const TriangleSource* sources, const Met* met, size_t count, uint32_t needs, bool bends,
                           const PointArrays& out, size_t at);
   /// Bends `count` outward normals by gradients of height and turns them to the viewer: where `codes` is 0.
   void (*bend_normals)(const TriangleSource* sources, const Met* met, size_t count, const HeightArrays& heights,
@@ -78,11 +81,12 @@ struct Kernels {
   /// them.
   void (*surroundings)(const EnvironmentLight* lights, size_t light_count, float lights_in_scene,
                        const Vec3* directions, size_t count, Vec3* radiance, float* density);
-  /// Numbers of 16 vertices.
+  /// What the paths of a block are like, and numbers for their vertices.
   void (*draw_vertices)(ScatterBlock& block, uint32_t light_count);
-  /// What the lights of a block send, of `area` and `sky`.
+  /// What the lights of a block send, of `triangles` and `sky`.
   void (*sample_lights)(ScatterBlock& block, const EnvironmentLight* lights, size_t light_count, float lights_in_scene);
-  /// The diffuse lobe of a block, both ways.
+  /// The diffuse lobe of a block, both ways: to the lights, and onwards. Paths that end are not `alive`; of them,
+  /// nothing but radiance and faults is kept.
   void (*scatter_diffuse)(ScatterBlock& block);
 };
 

@@ -37,36 +37,100 @@ MS_INLINE void store(const Vector& v, LaneFloats (&to)[3]) {
 MS_INLINE M truth(U bits) { return stdlib::to_mask<F>(bits != U(0u)); }
 MS_INLINE U bits_of(M mask) { return select(mask, U(1u), U(0u)); }
 
+/// Four numbers of each lane.
+struct Fours {
+  F x, y, z, w;
+};
+
+/// Within each four lanes, rows become columns; it is its own inverse.
+MS_INLINE Fours transposed(const Fours& f) {
+#define PAIRS(a, b, i, j)                                                                                              \
+  __builtin_shufflevector(a, b, i, i + 16, j, j + 16, i + 4, i + 20, j + 4, j + 20, i + 8, i + 24, j + 8, j + 24,      \
+                          i + 12, i + 28, j + 12, j + 28)
+#define HALVES(a, b, i)                                                                                                \
+  __builtin_shufflevector(a, b, i, i + 1, i + 16, i + 17, i + 4, i + 5, i + 20, i + 21, i + 8, i + 9, i + 24, i + 25,  \
+                          i + 12, i + 13, i + 28, i + 29)
+  F xy = PAIRS(f.x, f.y, 0, 1), zw = PAIRS(f.z, f.w, 0, 1), xy2 = PAIRS(f.x, f.y, 2, 3), zw2 = PAIRS(f.z, f.w, 2, 3);
+  return {HALVES(xy, zw, 0), HALVES(xy, zw, 2), HALVES(xy2, zw2, 0), HALVES(xy2, zw2, 2)};
+#undef PAIRS
+#undef HALVES
+}
+
+using Four = Wide<float, 4>;
+
+/// Those at number `first` of each lane's record.
+template <class Record> MS_INLINE Fours load_fours(Record* const (&records)[kLanes], size_t first) {
+  auto four = [&](size_t lane) __attribute__((always_inline)) {
+    Four value;
+    __builtin_memcpy(&value, reinterpret_cast<const float*>(records[lane]) + first, sizeof value);
+    return value;
+  };
+  auto every_fourth = [&](size_t lane) __attribute__((always_inline)) {
+    auto low = __builtin_shufflevector(four(lane), four(lane + 4), 0, 1, 2, 3, 4, 5, 6, 7);
+    auto high = __builtin_shufflevector(four(lane + 8), four(lane + 12), 0, 1, 2, 3, 4, 5, 6, 7);
+    return F(__builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15));
+  };
+  return transposed({every_fourth(0), every_fourth(1), every_fourth(2), every_fourth(3)});
+}
+
+template <class Record> MS_INLINE void store_fours(const Fours& fours, Record* const (&records)[kLanes], size_t first) {
+  Fours rows = transposed(fours);
+  auto put = [&](F row, size_t lane) __attribute__((always_inline)) {
+    Four parts[4] = {__builtin_shufflevector(row, row, 0, 1, 2, 3), __builtin_shufflevector(row, row, 4, 5, 6, 7),
+                     __builtin_shufflevector(row, row, 8, 9, 10, 11),
+                     __builtin_shufflevector(row, row, 12, 13, 14, 15)};
+#pragma clang loop unroll(full)
+    for (size_t k = 0; k < 4; ++k)
+      __builtin_memcpy(reinterpret_cast<float*>(records[lane + 4 * k]) + first, &parts[k], sizeof parts[k]);
+  };
+  put(rows.x, 0), put(rows.y, 1), put(rows.z, 2), put(rows.w, 3);
+}
+
+template <class Record> MS_INLINE Vector load_vector(Record* const (&records)[kLanes], size_t first) {
+  Fours f = load_fours(records, first);
+  return {{f.x, f.y, f.z}};
+}
+
+MS_INLINE Fours fours(const Vector& v, F w) { return {v[0], v[1], v[2], w}; }
+
+/// Where members of records lie, as numbers.
+#define AT(record, member) (offsetof(record, member) / sizeof(float))
+
+/// Whole quotients, by a division of doubles, which is exact enough for any two integers of 32 bits.
+MS_INLINE U divided(U a, uint32_t b) {
+  using D = Double<F>;
+  return convert<U>(convert<D>(a) / D(double(b)));
+}
+
+/// Paths that have not left the camera yet: all alike.
+MS_INLINE void start_paths(const Path& initial, Path* const (&paths)[kLanes]) {
+  Four parts[sizeof(Path) / sizeof(Four)];
+  __builtin_memcpy(parts, &initial, sizeof parts);
+  LANES __builtin_memcpy(paths[i], parts, sizeof parts);
+}
+
 void camera_paths(const CameraRays& camera, const Path& initial, uint32_t seed, const uint32_t* pixels, uint32_t width,
                   uint32_t sample, size_t count, Path* paths) {
   uint32_t seed_hash = hash32(seed);
   for (size_t at = 0; at < count; at += kLanes) {
     size_t n = count - at < kLanes ? count - at : kLanes;
-    alignas(64) LaneInts pixel, column, row, keys;
-    alignas(64) LaneFloats origin[3], direction[3];
-    LANES {
-      pixel[i] = pixels[at + (i < n ? i : 0)];
-      column[i] = pixel[i] % width, row[i] = pixel[i] / width;
-    }
+    alignas(64) LaneInts pixel;
+    Path* starts[kLanes];
+    LANES pixel[i] = pixels[at + (i < n ? i : 0)], starts[i] = paths + at + (i < n ? i : 0);
     Draws<U> draws{hash_combine(U(seed_hash), load(pixel)), U(sample)};
-    store(draws.key, keys);
     F u, v, lens_u = F(0.5f), lens_v = F(0.5f);
     draws.two(U(0u), u, v);
     if (camera.has_lens()) draws.two(U(kLensDimension), lens_u, lens_v);
-    F x = convert<F>(bit_cast<I>(load(column))) + F(0.5f) + sample_tent(u);
-    F y = convert<F>(bit_cast<I>(load(row))) + F(0.5f) + sample_tent(v);
-    Vector o, d;
-    camera.rays(x, y, lens_u, lens_v, o, d);
-    store(o, origin), store(d, direction);
-    for (size_t i = 0; i < n; ++i) {
-      Path& path = paths[at + i];
-      __builtin_memcpy(&path, &initial, sizeof path);
-      path.ray.origin.x = origin[0][i], path.ray.origin.y = origin[1][i], path.ray.origin.z = origin[2][i];
-      path.ray.direction.x = direction[0][i], path.ray.direction.y = direction[1][i];
-      path.ray.direction.z = direction[2][i];
-      uint32_t draw[2] = {keys[i], sample};
-      __builtin_memcpy(&path.sampler, draw, sizeof path.sampler);
-    }
+    U row = divided(load(pixel), width), column = load(pixel) - row * U(width);
+    F x = convert<F>(bit_cast<I>(column)) + F(0.5f) + sample_tent(u);
+    F y = convert<F>(bit_cast<I>(row)) + F(0.5f) + sample_tent(v);
+    Vector origin, direction;
+    camera.rays(x, y, lens_u, lens_v, origin, direction);
+    start_paths(initial, starts);
+    store_fours(fours(origin, F(0.0f)), starts, AT(Path, ray.origin));
+    store_fours(fours(direction, stdlib::infinity<F>()), starts, AT(Path, ray.direction));
+    F none = F(0.0f);
+    store_fours({bit_cast<F>(draws.key), bit_cast<F>(draws.sample), none, none}, starts, AT(Path, sampler));
   }
 }
 
@@ -115,10 +179,12 @@ MS_INLINE Vector get(const PointArrays& points, Channel channel, size_t at) {
            load(points.inputs[channel + 2] + at)}};
 }
 
-void triangle_points(const TriangleSource* sources, Met* met, size_t count, uint32_t needs, bool bends,
+void triangle_points(const TriangleSource* sources, const Met* met, size_t count, uint32_t needs, bool bends,
                      const PointArrays& out, size_t at) {
-  Corners vertices, positions, normals;
-  alignas(64) LaneFloats origin[3], direction[3], width, spread, uv[3][2];
+  Corners positions, normals;
+  const Ray* rays[kLanes];
+  const float* corners[3][kLanes];
+  alignas(64) LaneFloats width, spread, uv[3][2];
   bool wants_uv = needs & (channel_mask(kUv, 2) | channel_mask(kDpdu, 6));
   bool wants_local = bends || (needs & channel_mask(kLocal, 3));
   const uint32_t object = met[0].hit.object;
@@ -133,11 +199,10 @@ void triangle_points(const TriangleSource* sources, Met* met, size_t count, uint
     const Met& m = met[i < count ? i : 0];
     const TriangleSource& s = sources[m.hit.object];
     size_t triangle = size_t(m.hit.primitive) * 3;
-    const Ray& ray = *m.ray;
-    origin[0][i] = ray.origin.x, origin[1][i] = ray.origin.y, origin[2][i] = ray.origin.z;
-    direction[0][i] = ray.direction.x, direction[1][i] = ray.direction.y, direction[2][i] = ray.direction.z;
+    rays[i] = m.ray;
     width[i] = m.width, spread[i] = m.spread;
-    vertices.set(i, s.vertices, s.triangles + triangle);
+    for (size_t corner = 0; corner < 3; ++corner)
+      corners[corner][i] = s.vertices + size_t(s.triangles[triangle + corner]) * 3;
     if (wants_local) positions.set(i, s.positions, s.triangles + triangle);
     if (!any_smooth) continue;
     if (s.normals)
@@ -181,16 +246,26 @@ void triangle_points(const TriangleSource* sources, Met* met, size_t count, uint
     scale = load(scales);
   }
   Vector zero = {{F(0.0f), F(0.0f), F(0.0f)}};
-  TriangleHit<F> hit{load(origin), load(direction), vertices.of(0), vertices.of(1), vertices.of(2),
-                     mirrored,     identity,        zero,           zero,           zero,
-                     matrix,       smooth,          zero,           zero,           zero};
+  TriangleHit<F> hit{load_vector(rays, AT(Ray, origin)),
+                     load_vector(rays, AT(Ray, direction)),
+                     load_vector(corners[0], 0),
+                     load_vector(corners[1], 0),
+                     load_vector(corners[2], 0),
+                     mirrored,
+                     identity,
+                     zero,
+                     zero,
+                     zero,
+                     matrix,
+                     smooth,
+                     zero,
+                     zero,
+                     zero};
   if (wants_local) hit.local_a = positions.of(0), hit.local_b = positions.of(1), hit.local_c = positions.of(2);
   if (any_smooth) hit.normal_a = normals.of(0), hit.normal_b = normals.of(1), hit.normal_c = normals.of(2);
   TrianglePoint<F> p = triangle_point(hit);
   F footprint = load(width) + load(spread) * p.distance;
-  store(footprint, width);
-  for (size_t i = 0; i < count; ++i)
-    met[i].width = width[i];
+  store(footprint, out.width + at);
   M back = less(F(0.0f), dot(p.geometric_normal, hit.direction));
   F side = select(back, F(-1.0f), F(1.0f));
   alignas(64) LaneInts backs;
@@ -213,10 +288,10 @@ void triangle_points(const TriangleSource* sources, Met* met, size_t count, uint
   if (needs & channel_mask(kIncident, 3)) put(out, kIncident, at, hit.direction);
   if (bends || (needs & channel_mask(kFootprint, 1))) store(footprint / scale, out.inputs[kFootprint] + at);
   if (!wants_uv) return;
-  F corners[3][2];
+  F places[3][2];
   for (int corner = 0; corner < 3; ++corner)
-    corners[corner][0] = load(uv[corner][0]), corners[corner][1] = load(uv[corner][1]);
-  TexturePoint<F> t = texture_point(p, corners);
+    places[corner][0] = load(uv[corner][0]), places[corner][1] = load(uv[corner][1]);
+  TexturePoint<F> t = texture_point(p, places);
   store(t.u, out.inputs[kUv] + at), store(t.v, out.inputs[kUv + 1] + at);
   put(out, kDpdu, at, t.dpdu), put(out, kDpdv, at, t.dpdv);
 }
@@ -241,7 +316,16 @@ void surroundings_of(const EnvironmentLight* lights, size_t light_count, float l
   }
 }
 
+MS_INLINE M plays_roulette(const ScatterBlock& b) {
+  return stdlib::to_mask<F>(load(b.bounces) + U(1u) >= U(kRouletteFrom));
+}
+
 void draw_vertices(ScatterBlock& b, uint32_t light_count) {
+  Fours carried = load_fours(b.paths, AT(Path, throughput)), drawn = load_fours(b.paths, AT(Path, sampler));
+  store(carried.x, b.throughput[0]), store(carried.y, b.throughput[1]), store(carried.z, b.throughput[2]);
+  store(carried.w, b.eta2);
+  store(drawn.x, b.key), store(drawn.y, b.sample), store(drawn.z, b.segments), store(drawn.w, b.bounces);
+  store(load_fours(b.paths, AT(Path, width)).y, b.spread);
   Draws<U> draws{load(b.key), load(b.sample)};
   U first = load(b.segments) * U(kDrawCount) + U(1u);
   F u, v;
@@ -256,24 +340,29 @@ void draw_vertices(ScatterBlock& b, uint32_t light_count) {
   }
   draws.two(first + U(uint32_t(kDirection)), u, v);
   store(u, b.direction_u), store(v, b.direction_v);
-  store(draws.one(first + U(uint32_t(kRoulette))), b.survival);
+  F survival = F(0.0f);
+  if (any(plays_roulette(b))) survival = draws.one(first + U(uint32_t(kRoulette)));
+  store(survival, b.survival);
 }
 
 void sample_lights(ScatterBlock& b, const EnvironmentLight* lights, size_t light_count, float lights_in_scene) {
   F share = F(lights_in_scene);
-  M area = truth(load(b.area)), sky = truth(load(b.sky));
+  Fours first = load_fours(b.triangles, AT(LightTriangle, a)), second = load_fours(b.triangles, AT(LightTriangle, b)),
+        third = load_fours(b.triangles, AT(LightTriangle, c)),
+        emitted = load_fours(b.triangles, AT(LightTriangle, emission));
+  M area = less(F(0.0f), emitted.w), sky = truth(load(b.sky));
   Vector point = load(b.point), zero = {{F(0.0f), F(0.0f), F(0.0f)}};
   Vector direction = load(b.to_light), radiance = load(b.radiance);
   F distance = load(b.light_distance), pdf = load(b.light_pdf);
   if (any(area)) {
-    AreaSample<F> s{load(b.corner[0]),
-                    load(b.corner[1]),
-                    load(b.corner[2]),
+    AreaSample<F> s{{{first.x, first.y, first.z}},
+                    {{second.x, second.y, second.z}},
+                    {{third.x, third.y, third.z}},
                     load(b.light_u),
                     load(b.light_v),
-                    load(b.density),
-                    load(b.side),
-                    truth(load(b.one_sided)),
+                    first.w,
+                    second.w,
+                    less(F(0.0f), third.w),
                     zero,
                     F(0.0f),
                     F(0.0f)};
@@ -281,7 +370,7 @@ void sample_lights(ScatterBlock& b, const EnvironmentLight* lights, size_t light
     direction = select<3>(area, s.direction, direction);
     distance = select(area, s.distance, distance);
     pdf = select(area, s.pdf / share, pdf);
-    radiance = select<3>(area, load(b.emission), radiance);
+    radiance = select<3>(area, {{emitted.x, emitted.y, emitted.z}}, radiance);
   }
   if (any(sky)) {
     Vector to = direction_at_height(load(b.height), load(b.light_v)), sum;
@@ -296,37 +385,69 @@ void sample_lights(ScatterBlock& b, const EnvironmentLight* lights, size_t light
   store(distance, b.light_distance), store(pdf, b.light_pdf);
 }
 
+/// Where rays in a direction leave the surface.
+MS_INLINE Vector origin(const ScatterBlock& b, const Vector& geometric, const Vector& direction) {
+  F side = select(less(dot(direction, geometric), F(0.0f)), F(-1.0f), F(1.0f));
+  return load(b.point) + geometric * (load(b.offset) * side);
+}
+
+/// The light, seen from here.
+MS_INLINE void light_diffuse(ScatterBlock& b, const DiffuseLobe<F>& lobe, const Vector& color, M reflects) {
+  F zero = F(0.0f);
+  Vector in = load(b.to_light);
+  F light_pdf = load(b.light_pdf), distance = load(b.light_distance);
+  F share = lobe.share(in, dot(in, lobe.geometric));
+  F weight = select(truth(load(b.delta)), F(1.0f), power_heuristic(light_pdf, lobe.density(in))) / light_pdf;
+  Vector contribution = times(times(load(b.throughput), color * share), load(b.radiance)) * weight;
+  auto black = equal(contribution[0], zero) & equal(contribution[1], zero) & equal(contribution[2], zero);
+  store(bits_of(reflects & less(zero, light_pdf) & less(zero, share) & !black), b.lit);
+  // The end stops short of the light's own surface.
+  F far = select(equal(distance, stdlib::infinity<F>()), distance, distance * F(kShadowReach) - load(b.offset));
+  Shadow* shadows[kLanes];
+  LANES shadows[i] = &b.shadows[i];
+  store_fours(fours(origin(b, lobe.geometric, in), zero), shadows, AT(Shadow, ray.origin));
+  store_fours(fours(in, far), shadows, AT(Shadow, ray.direction));
+  store_fours(fours(contribution, bit_cast<F>(load(b.owner))), shadows, AT(Shadow, contribution));
+}
+
+/// The paths' flags: no mirror, alive or not, and faulted as before.
+MS_INLINE F flags_of(F flags, M survives) {
+  static_assert(offsetof(Path, alive) == offsetof(Path, mirror) + 1 && offsetof(Path, mirror) % 4 == 0);
+  return bit_cast<F>((bit_cast<U>(flags) & U(0xffff0000u)) | select(survives, U(0x100u), U(0u)));
+}
+
 void scatter_diffuse(ScatterBlock& b) {
   DiffuseLobe<F> lobe{load(b.normal), load(b.geometric), F(0.0f), load(b.scale)};
   lobe.between = dot(lobe.geometric, lobe.normal);
-  Vector color = load(b.color), throughput = load(b.throughput);
-  F zero = F(0.0f);
+  Vector color = load(b.color);
+  F zero = F(0.0f), eta2 = load(b.eta2);
   M reflects = less(zero, luminance(color));
-
-  // The light, seen from here.
-  Vector in = load(b.to_light);
-  F light_pdf = load(b.light_pdf);
-  F share = lobe.share(in, dot(in, lobe.geometric));
-  F weight = select(truth(load(b.delta)), F(1.0f), power_heuristic(light_pdf, lobe.density(in))) / light_pdf;
-  Vector contribution = times(times(throughput, color * share), load(b.radiance)) * weight;
-  auto black = equal(contribution[0], zero) & equal(contribution[1], zero) & equal(contribution[2], zero);
-  store(contribution, b.contribution);
-  store(bits_of(reflects & less(zero, light_pdf) & less(zero, share) & !black), b.lit);
+  light_diffuse(b, lobe, color, reflects);
 
   // The way on.
   Vector direction = lobe.sample(load(b.direction_u), load(b.direction_v));
   F pdf = lobe.density(direction);
-  Vector onwards = times(throughput, color * (lobe.share(direction, dot(direction, lobe.geometric)) / pdf));
+  Vector onwards = times(load(b.throughput), color * (lobe.share(direction, dot(direction, lobe.geometric)) / pdf));
   F brightest = max(stdlib::abs(onwards[0]), max(stdlib::abs(onwards[1]), stdlib::abs(onwards[2])));
   M survives = reflects & less(zero, pdf) & less(zero, brightest);
   // Russian roulette, by what the path can still bring.
-  M plays = stdlib::to_mask<F>(load(b.bounces) + U(1u) >= U(kRouletteFrom));
-  F survival = min(brightest * load(b.eta2), F(0.95f));
+  M plays = plays_roulette(b);
+  F survival = min(brightest * eta2, F(0.95f));
   survives = survives & (!plays | less(load(b.survival), survival));
   F gain = select(plays, F(1.0f) / survival, F(1.0f));
   onwards = onwards * gain;
-  store(direction, b.direction), store(onwards, b.throughput), store(pdf, b.pdf);
-  store(bits_of(survives), b.survives);
+
+  Vector from = origin(b, lobe.geometric, direction);
+  store_fours(fours(from, zero), b.paths, AT(Path, ray.origin));
+  store_fours(fours(direction, stdlib::infinity<F>()), b.paths, AT(Path, ray.direction));
+  store_fours(fours(onwards, eta2), b.paths, AT(Path, throughput));
+  store_fours(fours(from, pdf), b.paths, AT(Path, from));
+  store_fours({bit_cast<F>(load(b.key)), bit_cast<F>(load(b.sample)), bit_cast<F>(load(b.segments)),
+               bit_cast<F>(U(load(b.bounces) + U(1u)))},
+              b.paths, AT(Path, sampler));
+  F flags = load_fours(b.paths, AT(Path, width)).w;
+  store_fours({load(b.width), load(b.spread) + F(kDiffuseSpread), zero, flags_of(flags, survives)}, b.paths,
+              AT(Path, width));
 }
 
 MS_INLINE Vector lane_vectors(const float* const (&arrays)[3], size_t at) {

@@ -22,30 +22,53 @@ void set(LaneFloats (&lanes)[3], size_t lane, const Vec3& v) {
     lanes[c][lane] = v[c];
 }
 
-/// Points with normals a little apart, a triangle or a sky as light.
-ScatterBlock some_block(uint32_t seed) {
-  ScatterBlock b{};
-  for (uint32_t i = 0; i < kLanes; ++i) {
-    uint32_t at = seed * 100 + i;
-    Vec3 ng = direction(at, 0), n = glm::normalize(ng + direction(at, 1) * 0.3f);
-    set(b.point, i, direction(at, 2));
-    set(b.normal, i, n), set(b.geometric, i, ng);
-    set(b.throughput, i, Vec3(number(at, 20), 0.5f, 0.25f));
-    set(b.color, i, Vec3(0.7f, number(at, 21), 0.2f));
-    float between = glm::dot(ng, n);
-    b.scale[i] = between < kNormalsAgree ? 1 / horizon_albedo(between) : 1.0f;
-    b.eta2[i] = 1;
-    b.segments[i] = 1 + i % 7, b.bounces[i] = i % 7;
-    b.key[i] = hash32(at), b.sample[i] = i;
-    b.area[i] = i % 2, b.sky[i] = !b.area[i], b.one_sided[i] = i % 4 == 1;
-    for (uint32_t corner = 0; corner < 3; ++corner)
-      set(b.corner[corner], i, direction(at, 30 + corner) * 3.0f);
-    b.density[i] = 0.3f, b.side[i] = 1,
-    b.height[i] = b.sky[i] ? number(at, 40) * 2 - 1 : std::nanf(""); // others hold anything
-    set(b.emission, i, Vec3(2, 3, 4));
+/// Points with normals a little apart, a triangle or a sky as light; and the paths that have come there.
+struct Vertices {
+  ScatterBlock block{};
+  Path paths[kLanes];
+  LightTriangle triangles[kLanes];
+
+  explicit Vertices(uint32_t seed, uint32_t bounces = 7) {
+    ScatterBlock& b = block;
+    for (uint32_t i = 0; i < kLanes; ++i) {
+      uint32_t at = seed * 100 + i;
+      Vec3 ng = direction(at, 0), n = glm::normalize(ng + direction(at, 1) * 0.3f);
+      set(b.point, i, direction(at, 2));
+      set(b.normal, i, n), set(b.geometric, i, ng);
+      b.offset[i] = 1e-6f, b.width[i] = 0.01f * float(i), b.owner[i] = 100 + i;
+      set(b.color, i, Vec3(0.7f, number(at, 21), 0.2f));
+      float between = glm::dot(ng, n);
+      b.scale[i] = between < kNormalsAgree ? 1 / horizon_albedo(between) : 1.0f;
+      Path& path = paths[i];
+      path.throughput = Vec3(number(at, 20), 0.5f, 0.25f);
+      path.radiance = Vec3(1, 2, 3);
+      path.segments = 1 + i % 7, path.bounces = i % bounces;
+      path.sampler = Sampler(at, 0, i);
+      path.spread = 0.1f, path.travelled = 1, path.faulted = i % 3 == 0;
+      path.media.ids[0] = i;
+      b.sky[i] = i % 2 == 0;
+      b.height[i] = b.sky[i] ? number(at, 40) * 2 - 1 : std::nanf(""); // others hold anything
+      if (!b.sky[i])
+        triangles[i] = {direction(at, 30) * 3.0f,
+                        0.3f,
+                        direction(at, 31) * 3.0f,
+                        1,
+                        direction(at, 32) * 3.0f,
+                        i % 4 == 1 ? 1.0f : 0.0f,
+                        Vec3(2, 3, 4),
+                        1};
+    }
   }
-  return b;
-}
+  void scatter(const Kernels& kernels, const EnvironmentLight& sky) {
+    for (size_t i = 0; i < kLanes; ++i)
+      block.paths[i] = &paths[i], block.triangles[i] = &triangles[i];
+    kernels.draw_vertices(block, 2);
+    kernels.sample_lights(block, &sky, 1, 2);
+    kernels.scatter_diffuse(block);
+    for (size_t i = 0; i < kLanes; ++i) // which are no results
+      block.paths[i] = nullptr, block.triangles[i] = nullptr;
+  }
+};
 
 EnvironmentLight some_sky() {
   static const std::vector<float> density(kSkyBands, 1 / (4 * kPi));
@@ -59,61 +82,85 @@ EnvironmentLight some_sky() {
 TEST(Kernels, GiveTheSameBitsOnEveryInstructionSet) {
   EnvironmentLight sky = some_sky();
   for (uint32_t seed = 0; seed < 50; ++seed) {
-    std::vector<ScatterBlock> results;
+    std::vector<Vertices> results;
     for (const Kernels* kernels : runnable_kernels()) {
-      ScatterBlock b = some_block(seed);
-      kernels->draw_vertices(b, 2);
-      kernels->sample_lights(b, &sky, 1, 2);
-      kernels->scatter_diffuse(b);
-      results.push_back(b);
+      results.emplace_back(seed);
+      results.back().scatter(*kernels, sky);
     }
-    for (const ScatterBlock& b : results)
-      EXPECT_EQ(std::memcmp(&b, results.data(), sizeof b), 0) << seed;
+    for (const Vertices& v : results) {
+      EXPECT_EQ(std::memcmp(&v.block, &results[0].block, sizeof v.block), 0) << seed;
+      EXPECT_EQ(std::memcmp(v.paths, results[0].paths, sizeof v.paths), 0) << seed;
+    }
   }
   EXPECT_GE(runnable_kernels().size(), 1u);
 }
 
-TEST(Kernels, ScatterAsTheBsdfDoes) {
+/// What a kernel has made of one path and its light, against the code for one point.
+struct Scattered {
   int lit = 0, alive = 0;
+
+  void compare(const Vertices& before, const Vertices& after, size_t i) {
+    const ScatterBlock& b = after.block;
+    auto vector = [&](const LaneFloats(&lanes)[3]) { return Vec3(lanes[0][i], lanes[1][i], lanes[2][i]); };
+    SurfaceValues values;
+    values.color = vector(b.color), values.ior = 1;
+    Vec3 ng = vector(b.geometric), n = vector(b.normal);
+    Bsdf bsdf(values, n, ng, n, {}); // seen along the shading normal, which nothing turns
+    const Path &old = before.paths[i], &path = after.paths[i];
+    Vec3 in = vector(b.to_light);
+    auto leaves = [&](const Ray& ray) {
+      Vec3 step = ng * (glm::dot(ray.direction, ng) < 0 ? -b.offset[i] : b.offset[i]);
+      EXPECT_EQ(ray.origin, vector(b.point) + step);
+      EXPECT_EQ(ray.near, 0);
+    };
+    BsdfValue value = bsdf.evaluate(in);
+    if (b.lit[i]) {
+      float weight = power_heuristic(b.light_pdf[i], value.pdf) / b.light_pdf[i];
+      Vec3 expected = old.throughput * value.f_cos * vector(b.radiance) * weight;
+      EXPECT_NEAR(glm::length(b.shadows[i].contribution - expected), 0, 1e-5f * glm::length(expected));
+      EXPECT_EQ(b.shadows[i].owner, b.owner[i]);
+      EXPECT_EQ(b.shadows[i].ray.direction, in);
+      EXPECT_EQ(b.shadows[i].ray.far,
+                b.light_distance[i] == kInfinity ? kInfinity : b.light_distance[i] * kShadowReach - b.offset[i]);
+      leaves(b.shadows[i].ray);
+      ++lit;
+    } else {
+      EXPECT_TRUE(!(b.light_pdf[i] > 0) || is_black(value.f_cos));
+    }
+    BsdfSample next = bsdf.sample(0.5f, old.sampler.two(dimension_of(old.segments, kDirection)));
+    EXPECT_EQ(path.alive, next.valid && !is_black(next.weight));
+    EXPECT_EQ(path.radiance, old.radiance);
+    EXPECT_EQ(path.faulted, old.faulted);
+    if (!path.alive) return;
+    leaves(path.ray);
+    EXPECT_EQ(path.ray.direction, next.direction);
+    EXPECT_EQ(path.ray.far, kInfinity);
+    EXPECT_NEAR(path.pdf, next.pdf, 1e-6f);
+    EXPECT_NEAR(glm::length(path.throughput - old.throughput * next.weight), 0, 1e-5f);
+    EXPECT_EQ(path.from, path.ray.origin);
+    EXPECT_EQ(path.segments, old.segments);
+    EXPECT_EQ(path.bounces, old.bounces + 1);
+    EXPECT_EQ(path.width, b.width[i]);
+    EXPECT_EQ(path.spread, old.spread + kDiffuseSpread);
+    EXPECT_EQ(path.travelled, 0);
+    EXPECT_EQ(path.media.ids[0], uint32_t(i));
+    EXPECT_FALSE(path.mirror);
+    EXPECT_EQ(path.sampler.one(5), old.sampler.one(5));
+    ++alive;
+  }
+};
+
+TEST(Kernels, ScatterAsTheBsdfDoes) {
+  Scattered scattered;
   EnvironmentLight sky = some_sky();
   for (uint32_t seed = 0; seed < 50; ++seed) {
-    ScatterBlock b = some_block(seed);
-    for (uint32_t& bounces : b.bounces)
-      bounces = 0; // no roulette
-    ScatterBlock before = b;
-    kernels().draw_vertices(b, 2);
-    kernels().sample_lights(b, &sky, 1, 2);
-    kernels().scatter_diffuse(b);
-    for (size_t i = 0; i < kLanes; ++i) {
-      auto vector = [&](const LaneFloats(&lanes)[3]) { return Vec3(lanes[0][i], lanes[1][i], lanes[2][i]); };
-      SurfaceValues values;
-      values.color = vector(b.color), values.ior = 1;
-      Vec3 ng = vector(b.geometric), n = vector(b.normal);
-      Bsdf bsdf(values, n, ng, n, {}); // seen along the shading normal, which nothing turns
-      Vec3 throughput = vector(before.throughput), in = vector(b.to_light);
-      BsdfValue value = bsdf.evaluate(in);
-      Vec3 expected =
-          throughput * value.f_cos * vector(b.radiance) * (power_heuristic(b.light_pdf[i], value.pdf) / b.light_pdf[i]);
-      if (b.lit[i]) {
-        EXPECT_NEAR(glm::length(vector(b.contribution) - expected), 0, 1e-5f * glm::length(expected));
-        ++lit;
-      } else {
-        EXPECT_TRUE(!(b.light_pdf[i] > 0) || is_black(value.f_cos));
-      }
-      Draws<uint32_t> draws{b.key[i], b.sample[i]};
-      Vec2 u;
-      draws.two(dimension_of(b.segments[i], kDirection), u.x, u.y);
-      BsdfSample next = bsdf.sample(0.5f, u);
-      EXPECT_EQ(bool(b.survives[i]), next.valid && !is_black(next.weight));
-      if (!b.survives[i]) continue;
-      EXPECT_EQ(vector(b.direction), next.direction);
-      EXPECT_NEAR(b.pdf[i], next.pdf, 1e-6f);
-      EXPECT_NEAR(glm::length(vector(b.throughput) - throughput * next.weight), 0, 1e-5f);
-      ++alive;
-    }
+    Vertices before(seed, 1), after = before; // without a bounce, no roulette
+    after.scatter(kernels(), sky);
+    for (size_t i = 0; i < kLanes; ++i)
+      scattered.compare(before, after, i);
   }
-  EXPECT_GT(lit, 100);
-  EXPECT_GT(alive, 600);
+  EXPECT_GT(scattered.lit, 100);
+  EXPECT_GT(scattered.alive, 600);
 }
 
 TEST(Kernels, PlacePointsAsGeometryDoes) {
@@ -131,7 +178,7 @@ TEST(Kernels, PlacePointsAsGeometryDoes) {
   std::string error;
   std::unique_ptr<Geometry> geometry = Geometry::build(*reading.scene, error);
   ASSERT_TRUE(geometry) << error;
-  std::vector<float> inputs[24], distance(kLanes), offset(kLanes), outward[3];
+  std::vector<float> inputs[24], distance(kLanes), offset(kLanes), width(kLanes), outward[3];
   std::vector<uint8_t> backface(kLanes);
   std::vector<int64_t> id(kLanes);
   PointArrays arrays{};
@@ -140,7 +187,7 @@ TEST(Kernels, PlacePointsAsGeometryDoes) {
   for (size_t c = 0; c < 3; ++c)
     outward[c].resize(kLanes), arrays.outward[c] = outward[c].data();
   arrays.backface = backface.data(), arrays.id = id.data();
-  arrays.distance = distance.data(), arrays.offset = offset.data();
+  arrays.distance = distance.data(), arrays.offset = offset.data(), arrays.width = width.data();
   for (uint32_t round = 0; round < 40; ++round) {
     Ray rays[kLanes];
     Met met[kLanes];
@@ -151,9 +198,7 @@ TEST(Kernels, PlacePointsAsGeometryDoes) {
       met[i] = {i, 0.01f, 0.001f, &rays[i], {object, i / 3 % 2, 1}};
     }
     for (const Kernels* kernels : runnable_kernels()) {
-      Met copy[kLanes];
-      std::copy(std::begin(met), std::end(met), copy);
-      kernels->triangle_points(geometry->sources().data(), copy, kLanes, 0xffffffu, true, arrays, 0);
+      kernels->triangle_points(geometry->sources().data(), met, kLanes, 0xffffffu, true, arrays, 0);
       for (size_t i = 0; i < kLanes; ++i) {
         SurfacePoint s = geometry->surface(rays[i], met[i].hit);
         float side = glm::dot(s.geometric_normal, rays[i].direction) > 0 ? -1.0f : 1.0f;
@@ -167,6 +212,7 @@ TEST(Kernels, PlacePointsAsGeometryDoes) {
         EXPECT_EQ(Vec2(inputs[kUv][i], inputs[kUv + 1][i]), s.uv);
         EXPECT_EQ(distance[i], s.distance);
         EXPECT_EQ(offset[i], s.offset);
+        EXPECT_EQ(width[i], 0.01f + 0.001f * s.distance);
         EXPECT_EQ(backface[i], side < 0);
       }
     }

@@ -18,6 +18,19 @@ struct EnvironmentLight {
   float one_minus_cos = 0, disc_density = 0;
 };
 
+/// A triangle that emits, in fours of numbers.
+struct alignas(64) LightTriangle {
+  Vec3 a{0};
+  float density = 0; ///< per area
+  Vec3 b{0};
+  float side = 1; ///< -1 where the object's matrix mirrors
+  Vec3 c{0};
+  float one_sided = 0; ///< or 1
+  Vec3 emission{0};
+  float emits = 0; ///< 1; 0: there is none
+};
+static_assert(sizeof(LightTriangle) == 64);
+
 template <class L> MS_INLINE lanes::V3<L> sky_radiance(const EnvironmentLight& sky, L height) {
   using lanes::spread;
   lanes::V3<L> horizon = spread<L>(sky.horizon);

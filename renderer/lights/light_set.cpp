@@ -8,12 +8,18 @@
 namespace moonshade::renderer {
 
 /// Index of the first cumulative share above `u`, and `u` made uniform again within it.
-uint32_t LightSet::choose(const std::vector<float>& cumulative, float& u) {
+uint32_t LightSet::choose(std::span<const float> cumulative, float& u) {
   // Where all weigh the same, the first guess is right.
   uint32_t index = std::min(uint32_t(u * float(cumulative.size())), uint32_t(cumulative.size() - 1));
-  bool found = (index == 0 || cumulative[index - 1] <= u) && (index + 1 == cumulative.size() || u < cumulative[index]);
-  if (!found) index = uint32_t(std::upper_bound(cumulative.begin(), cumulative.end() - 1, u) - cumulative.begin());
-  float low = index ? cumulative[index - 1] : 0, share = cumulative[index] - low;
+  // Which of few it is, no branch could foresee.
+  auto start_of = [&](uint32_t i) { return cumulative[i - (i > 0)] * float(i > 0); };
+  float low = start_of(index);
+  bool found = bool(int(low <= u) & (int(index + 1 == cumulative.size()) | int(u < cumulative[index])));
+  if (!found) {
+    index = uint32_t(std::upper_bound(cumulative.begin(), cumulative.end() - 1, u) - cumulative.begin());
+    low = start_of(index);
+  }
+  float share = cumulative[index] - low;
   u = share > 0 ? std::clamp((u - low) / share, 0.0f, 0x1.fffffep-1f) : 0.0f;
   return index;
 }
@@ -69,6 +75,14 @@ LightSet::LightSet(const Scene& scene, const Geometry& geometry, const VolumeSet
   }
   for (uint32_t id : environment_)
     if (lights_[id].kind != Kind::Around) formulas_.push_back(formula_of(lights_[id]));
+  for (const Entry& entry : lights_)
+    choices_.push_back(choice_of(entry));
+}
+
+LightSet::Choice LightSet::choice_of(const Entry& entry) const {
+  if (entry.kind == Kind::Mesh) return {entry.cumulative, entry.emitting.data(), entry.by_shader ? &entry : nullptr};
+  if (entry.kind == Kind::Sky && formulas_only_) return {entry.cumulative, nullptr, nullptr};
+  return {};
 }
 
 void LightSet::add_point_or_sun(const Light& light) {
@@ -159,8 +173,13 @@ void LightSet::add_mesh(const PlacedObject& placed, uint32_t id, const ObjectEmi
   }
   entry.power = float(sum);
   if (entry.triangles.empty() || !accumulate(entry.cumulative)) return;
-  for (size_t i = 0; i < entry.triangles.size(); ++i)
-    entry.triangle_pdf[entry.triangles[i]] = float(brightness[i] / sum);
+  for (size_t i = 0; i < entry.triangles.size(); ++i) {
+    const Mesh::Corners& c = mesh.triangles[entry.triangles[i]];
+    float density = entry.triangle_pdf[entry.triangles[i]] = float(brightness[i] / sum);
+    entry.emitting.push_back({placed.vertices[c[0]], density, placed.vertices[c[1]], placed.mirrored ? -1.0f : 1.0f,
+                              placed.vertices[c[2]], entry.one_sided ? 1.0f : 0.0f,
+                              entry.by_shader ? Vec3(1) : entry.triangle_emission[i], 1});
+  }
   light_of_object_[id] = int32_t(lights_.size());
   lights_.push_back(std::move(entry));
 }
@@ -235,32 +254,19 @@ static void ask_surface(LightSample& sample, uint32_t object, uint32_t primitive
   sample.object = object, sample.primitive = primitive;
 }
 
-uint32_t LightSet::choose_triangle(const Entry& entry, float& u, Vec3 (&corners)[3], float& density,
-                                   float& side) const {
-  uint32_t index = choose(entry.cumulative, u), triangle = entry.triangles[index];
-  const PlacedObject& placed = geometry_.objects()[entry.object];
-  const Mesh::Corners& c = placed.object->mesh->triangles[triangle];
-  for (size_t k = 0; k < 3; ++k)
-    corners[k] = placed.vertices[c[k]];
-  density = entry.triangle_pdf[triangle];
-  side = placed.mirrored ? -1.0f : 1.0f;
-  return index;
-}
-
 LightSample LightSet::sample_mesh(const Entry& entry, const Vec3& point, const Vec2& u) const {
-  Vec3 corners[3];
-  float within = u.x, density, side;
-  uint32_t index = choose_triangle(entry, within, corners, density, side);
+  float within = u.x;
+  uint32_t index = choose(entry.cumulative, within);
+  const LightTriangle& t = entry.emitting[index];
   auto lane = [](const Vec3& v) { return lanes::V3<float>{{v.x, v.y, v.z}}; };
-  AreaSample<float> area{
-      lane(corners[0]), lane(corners[1]), lane(corners[2]), within, u.y, density, side, {entry.one_sided}, {}, 0, 0};
+  AreaSample<float> area{lane(t.a), lane(t.b), lane(t.c), within, u.y, t.density, t.side, {t.one_sided != 0}, {}, 0, 0};
   sample_area(lane(point), area);
   LightSample sample;
   if (!(area.pdf > 0)) return sample;
   sample.direction = {area.direction[0], area.direction[1], area.direction[2]};
   sample.distance = area.distance;
   sample.pdf = area.pdf;
-  sample.radiance = entry.triangle_emission[index];
+  sample.radiance = t.emission;
   if (entry.by_shader) ask_surface(sample, entry.object, entry.triangles[index]);
   return sample;
 }
@@ -366,39 +372,32 @@ static float sky_height(uint32_t band, float within) {
 }
 
 void LightSet::look_up(ScatterBlock& block, size_t count, LightSample* others) const {
+  static const LightTriangle kNone;
   for (size_t i = 0; i < kLanes; ++i)
-    block.area[i] = block.sky[i] = block.delta[i] = block.one_sided[i] = 0, block.light_pdf[i] = 0;
+    block.triangles[i] = &kNone, block.sky[i] = block.delta[i] = 0, block.light_pdf[i] = 0;
   for (size_t i = 0; i < count; ++i) {
-    const Entry& entry = lights_[block.light[i]];
+    const Choice& choice = choices_[block.light[i]];
     others[i].emitter = Emitter::Known;
-    if (entry.kind == Kind::Mesh) {
-      Vec3 corners[3];
-      uint32_t index = choose_triangle(entry, block.light_u[i], corners, block.density[i], block.side[i]);
-      for (size_t corner = 0; corner < 3; ++corner)
-        for (int c = 0; c < 3; ++c)
-          block.corner[corner][c][i] = corners[corner][c];
-      block.area[i] = 1, block.one_sided[i] = entry.one_sided;
-      Vec3 emission = entry.triangle_emission[index];
-      if (entry.by_shader) {
-        ask_surface(others[i], entry.object, entry.triangles[index]);
-        emission = Vec3(1);
-      }
-      for (int c = 0; c < 3; ++c)
-        block.emission[c][i] = emission[c];
-    } else if (entry.kind == Kind::Sky && formulas_only_) {
-      float within = block.light_u[i];
-      uint32_t band = choose(entry.cumulative, within);
-      block.height[i] = sky_height(band, within);
-      block.sky[i] = 1;
-    } else {
-      Vec3 point(block.point[0][i], block.point[1][i], block.point[2][i]);
-      others[i] = sample_of(block.light[i], point, {block.light_u[i], block.light_v[i]}, block.light_w[i]);
-      for (int c = 0; c < 3; ++c)
-        block.to_light[c][i] = others[i].direction[c], block.radiance[c][i] = others[i].radiance[c];
-      block.light_distance[i] = others[i].distance, block.light_pdf[i] = others[i].pdf;
-      block.delta[i] = others[i].delta;
+    if (choice.cumulative.empty()) {
+      look_up_other(block, i, others[i]);
+      continue;
     }
+    // Triangle or sky: no branch, which nobody could foresee.
+    uint32_t index = choose(choice.cumulative, block.light_u[i]);
+    block.triangles[i] = choice.emitting ? choice.emitting + index : &kNone;
+    block.sky[i] = !choice.emitting;
+    block.height[i] = sky_height(index, block.light_u[i]);
+    if (const Entry* entry = choice.by_shader) ask_surface(others[i], entry->object, entry->triangles[index]);
   }
+}
+
+void LightSet::look_up_other(ScatterBlock& block, size_t i, LightSample& found) const {
+  Vec3 point(block.point[0][i], block.point[1][i], block.point[2][i]);
+  found = sample_of(block.light[i], point, {block.light_u[i], block.light_v[i]}, block.light_w[i]);
+  for (int c = 0; c < 3; ++c)
+    block.to_light[c][i] = found.direction[c], block.radiance[c][i] = found.radiance[c];
+  block.light_distance[i] = found.distance, block.light_pdf[i] = found.pdf;
+  block.delta[i] = found.delta;
 }
 
 LightSample LightSet::sample_entry(const Entry& entry, const Vec3& point, const Vec2& u, float w) const {

@@ -18,6 +18,8 @@
 
 namespace moonshade::renderer {
 
+struct ScatterBlock;
+
 /// Who says what a light sends: the sample itself, or a shader yet to be asked; of a volume, all that glows along the
 /// ray, up to the first surface.
 enum class Emitter : uint8_t { Known, Surface, Surroundings, Volume };
@@ -44,7 +46,7 @@ public:
   LightSample sample(const Vec3& point, float choice, const Vec2& u) const;
   /// The same for the lights that a block of points has drawn: what is a formula is left to the kernel (kernels.h), the
   /// rest is found. Emitters of the other points are Known.
-  void look_up(struct ScatterBlock& block, size_t count, LightSample* others) const;
+  void look_up(ScatterBlock& block, size_t count, LightSample* others) const;
   /// A given light by itself, as direct lighting sums them: the density is that of this light alone, and the sun counts
   /// as irradiance from a direction within its disc. Not for skies.
   LightSample sample_light(size_t light, const Vec3& point, const Vec2& u, float w) const;
@@ -89,6 +91,7 @@ private:
     std::vector<float> band_density;     ///< Sky: per solid angle, by band
     std::vector<float> triangle_pdf;     ///< Mesh: density per area, by primitive; 0 where it does not emit
     std::vector<Vec3> triangle_emission; ///< Mesh: parallel to `triangles`
+    std::vector<LightTriangle> emitting; ///< Mesh: the same as samples take them, emission 1 where a shader is asked
     Vec3 emission{0};                    ///< Sphere, Ellipsoid
     float power = 0;                     ///< Mesh: luminance of its mean emission, times area
     bool by_shader = false;              ///< emission is a mean
@@ -98,6 +101,14 @@ private:
     const GlowGrid* glow = nullptr;     ///< Volume
   };
 
+  /// What look_up needs of a light that is a choice from a table, by formula from there: an emitting mesh, or a sky.
+  struct Choice {
+    std::span<const float> cumulative; ///< empty: it is none
+    const LightTriangle* emitting = nullptr;
+    const Entry* by_shader = nullptr; ///< or null
+  };
+  Choice choice_of(const Entry& entry) const;
+
   void add_sky(const Light& light);
   void add_point_or_sun(const Light& light);
   void add_mesh(const PlacedObject& placed, uint32_t id, const ObjectEmission& emission);
@@ -106,6 +117,8 @@ private:
   LightSample sample_sphere(const Entry& entry, const Vec3& point, const Vec2& u) const;
   LightSample sample_ellipsoid(const Entry& entry, const Vec3& point, const Vec2& u) const;
   LightSample sample_point(const Entry& entry, const Vec3& point) const;
+  /// Of point `i`.
+  void look_up_other(ScatterBlock& block, size_t i, LightSample& found) const;
   /// As `sample` does, of a light that is chosen.
   LightSample sample_of(size_t light, const Vec3& point, const Vec2& u, float w) const;
   LightSample sample_entry(const Entry& entry, const Vec3& point, const Vec2& u, float w) const;
@@ -113,19 +126,17 @@ private:
   LightSample sample_environment(const Vec3& direction) const;
   static float spot_share(const Entry& entry, const Vec3& to_light);
   static float ellipsoid_pdf(const PlacedObject& placed, const Vec3& unit);
-  static uint32_t choose(const std::vector<float>& cumulative, float& u);
+  static uint32_t choose(std::span<const float> cumulative, float& u);
   /// Of a sun or a sky; refers to its entry.
   static EnvironmentLight formula_of(const Entry& entry);
   /// Density of a direction by one of the lights far away.
   float entry_pdf(const Entry& entry, const Vec3& direction) const;
-  /// Chooses a triangle by `u`, which becomes uniform again within it, and gives what sample_area takes.
-  uint32_t choose_triangle(const Entry& entry, float& u, Vec3 (&corners)[3], float& density, float& side) const;
-
   const Geometry& geometry_;
   const Scene& scene_;
   std::vector<Environment> environments_;
   bool asks_shaders_ = false;
   std::vector<Entry> lights_;
+  std::vector<Choice> choices_;            ///< parallel to `lights_`
   std::vector<EnvironmentLight> formulas_; ///< sun and sky
   std::vector<uint32_t> environment_;      ///< lights that are sun, sky or surroundings
   bool formulas_only_ = true;

@@ -76,6 +76,8 @@ struct CompiledMaterial {
   bool passable() const {
     return volume || may_differ(Slot::Opacity, 1) || (thin && may_differ(Slot::Transmission, 0));
   }
+  /// Light goes through what it encloses: a path that slipped in unseen would be wrong all the way.
+  bool has_inside() const { return volume || (!thin && may_differ(Slot::Transmission, 0)); }
   /// Lambert's law and nothing else.
   bool only_diffuse() const {
     return !volume && !emits() && !may_differ(Slot::Reflectance, 0) && !may_differ(Slot::Metallic, 0) &&
@@ -105,6 +107,9 @@ public:
   /// By material: whether light may pass straight through.
   std::vector<uint8_t> passable() const;
   bool any_passable() const { return any_passable_; }
+  bool any_has_inside() const {
+    return std::any_of(materials_.begin(), materials_.end(), [](const CompiledMaterial& m) { return m.has_inside(); });
+  }
   bool any_emits() const {
     return std::any_of(materials_.begin(), materials_.end(),
                        [](const CompiledMaterial& m) { return m.emits() || (m.volume && m.volume->glows()); });

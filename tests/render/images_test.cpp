@@ -82,6 +82,27 @@ TEST(Images, ThreadsChangeNothing) {
               one.result.picture.pixels);
 }
 
+TEST(Images, EveryIntegratorKeepsItsBits) {
+  // Of paths and photons that are carried together, and of lanes.
+  struct Split {
+    size_t batch_paths;
+    unsigned width;
+  };
+  for (const char* scene : {"diffuse.scene.lua", "bumpy.scene.lua", "lights.scene.lua", "volumes.scene.lua"})
+    for (IntegratorKind integrator :
+         {IntegratorKind::Path, IntegratorKind::Whitted, IntegratorKind::Sppm, IntegratorKind::Irradiance}) {
+      auto change = [&](Scene& s) { s.settings.integrator = integrator, s.settings.photons = 5000; };
+      Outcome best = render_file(scene, {}, {}, {}, change);
+      ASSERT_EQ(best.error, "");
+      for (Split split : {Split{256, 0}, Split{600, 4}, Split{5000, 1}})
+        EXPECT_EQ(render_file(scene, {.width = split.width}, {}, {.batch_paths = split.batch_paths}, change)
+                      .result.picture.pixels,
+                  best.result.picture.pixels)
+            << scene << ", integrator " << int(integrator) << ", batch " << split.batch_paths << ", width "
+            << split.width;
+    }
+}
+
 TEST(Images, LightsAndTransparentSurfacesGiveTheSameBitsToo) {
   for (IntegratorKind integrator :
        {IntegratorKind::Path, IntegratorKind::Whitted, IntegratorKind::Sppm, IntegratorKind::Irradiance}) {
