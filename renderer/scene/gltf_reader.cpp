@@ -30,7 +30,10 @@ template <typename T> const T& at(const std::vector<T>& items, int index, const 
 class GltfReader {
 public:
   GltfReader(const std::string& path, const tinygltf::Model& gltf, const Folders& folders)
-      : path_(path), gltf_(gltf), folders_(folders) {}
+      : path_(path), gltf_(gltf), folders_(folders) {
+    for (const tinygltf::Buffer& buffer : gltf_.buffers)
+      elements_left_ += 8 * uint64_t(buffer.data.size());
+  }
   Model read();
 
 private:
@@ -40,6 +43,7 @@ private:
   };
   Bytes bytes_of(int view, size_t offset, size_t count, size_t size, int stride, const std::string& what) const;
   std::vector<float> floats(int accessor, size_t components, const std::string& what) const;
+  void afford(size_t elements, const std::string& what);
   void sparse(const tinygltf::Accessor& accessor, std::vector<float>& values, size_t components,
               const std::string& what) const;
   std::vector<uint32_t> indices(const tinygltf::Primitive& primitive, size_t vertices, const std::string& what) const;
@@ -58,6 +62,7 @@ private:
   const Folders& folders_;
   Model model_;
   bool normal_maps_ = false;
+  uint64_t elements_left_ = uint64_t(1) << 25; ///< that primitives may read, which may share what they read
   std::map<std::pair<int, size_t>, std::shared_ptr<const Mesh>> meshes_; ///< by mesh and primitive
   std::map<int, std::shared_ptr<const std::string>> image_bytes_;        ///< by image: kept once
 };
@@ -105,6 +110,12 @@ size_t component_size(int type, const std::string& what) {
   int size = tinygltf::GetComponentSizeInBytes(uint32_t(type));
   if (size <= 0 || size > 4) fail(what + " has components of an unknown type");
   return size_t(size);
+}
+
+/// However many primitives read the same bytes: what a file comes to is bounded by its size.
+void GltfReader::afford(size_t elements, const std::string& what) {
+  if (elements > elements_left_) fail(what + ": the primitives come to too many elements for the size of the file");
+  elements_left_ -= elements;
 }
 
 /// Values that stand in place of others (or of zeros).
@@ -183,6 +194,7 @@ std::shared_ptr<const Mesh> GltfReader::mesh(const tinygltf::Primitive& primitiv
   MeshBuilder builder;
   std::vector<float> p = floats(attribute("POSITION"), 3, what + ": POSITION");
   size_t vertices = p.size() / 3;
+  afford(vertices, what);
   for (size_t k = 0; k < vertices; ++k)
     builder.positions().emplace_back(p[3 * k], p[3 * k + 1], p[3 * k + 2]);
   if (attribute("NORMAL") >= 0) {
@@ -198,6 +210,7 @@ std::shared_ptr<const Mesh> GltfReader::mesh(const tinygltf::Primitive& primitiv
       builder.uvs().emplace_back(uv[2 * k], 1 - uv[2 * k + 1]); // v points up here, down there
   }
   std::vector<uint32_t> list = indices(primitive, vertices, what + ": indices");
+  afford(list.size(), what);
   size_t step = mode == TINYGLTF_MODE_TRIANGLES ? 3 : 1;
   for (size_t k = 0; k + 2 < list.size(); k += step) {
     bool turned = mode == TINYGLTF_MODE_TRIANGLE_STRIP && k % 2 == 1;
