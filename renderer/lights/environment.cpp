@@ -2,8 +2,8 @@
 #include "renderer/lights/environment.h"
 
 #include "renderer/sampling/sampler.h"
+#include "runtime/images/pyramid.h"
 
-#include <OpenImageIO/imageio.h>
 #include <algorithm>
 
 namespace moonshade::renderer {
@@ -35,27 +35,21 @@ std::array<float, 9> harmonics_at(const Vec3& d) {
           0.546274f * (d.x * d.x - d.y * d.y)};
 }
 
-float srgb_decode(float x) { return x <= 0.04045f ? x / 12.92f : std::pow((x + 0.055f) / 1.055f, 2.4f); }
-
 } // namespace
 
 std::string Environment::read_image(const std::string& file) {
-  auto input = OIIO::ImageInput::open(file);
-  if (!input) return file + ": " + OIIO::geterror();
-  const OIIO::ImageSpec spec = input->spec();
-  if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1 || int64_t(spec.width) * spec.height > (1 << 28))
-    return file + ": is no image of a usable size";
-  std::vector<float> values(size_t(spec.width) * size_t(spec.height) * size_t(spec.nchannels));
-  if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, values.data()))
-    return file + ": " + input->geterror();
-  bool encoded = spec.format.basetype == OIIO::TypeDesc::UINT8;
-  width_ = spec.width, height_ = spec.height;
-  pixels_.resize(size_t(width_) * size_t(height_));
-  for (size_t k = 0; k < pixels_.size(); ++k)
-    for (int c = 0; c < 3; ++c) {
-      float x = values[k * size_t(spec.nchannels) + size_t(std::min(c, spec.nchannels >= 3 ? 2 : 0))];
-      x = x > 0 && x < 1e30f ? x : 0; // neither NaN nor infinity
-      pixels_[k][c] = (encoded ? srgb_decode(x) : x) * scale_[c];
+  Pyramid image;
+  if (std::string error = image.read(file, false); !error.empty()) return file + ": " + error;
+  width_ = image.width(0), height_ = image.height(0);
+  pixels_.reserve(size_t(width_) * size_t(height_));
+  for (int y = 0; y < height_; ++y)
+    for (int x = 0; x < width_; ++x) {
+      const Texel texel = image.texel(0, x, y);
+      Vec3& pixel = pixels_.emplace_back(0.0f);
+      for (int c = 0; c < 3; ++c) {
+        const float number = texel[size_t(c)];
+        pixel[c] = (number > 0 && number < 1e30f ? number : 0) * scale_[c];
+      }
     }
   return "";
 }
