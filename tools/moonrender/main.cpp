@@ -18,7 +18,6 @@ int run(const Options& options) {
   auto picture = [&](std::optional<int64_t> frame) {
     renderer::RenderProgress progress;
     session.progress = &progress;
-    tools::cancel_on_interrupt(&progress.cancel);
     int status = render_picture(options, frame, session);
     tools::cancel_on_interrupt(nullptr);
     return status;
