@@ -31,6 +31,10 @@ int emit_stage(const CheckedShader& shader, const Options& options) {
   if (options.compile.bake)
     if (const auto status = read_parameters(shader.info(), options, compile_options.baked)) return *status;
   const Emission emission = emit(shader, *options.emit, compile_options, options.prefix);
+  if (emission.is_too_large) {
+    std::cerr << emission.error;
+    return tools::kInputAtFault;
+  }
   if (!emission.error.empty()) return call_error(emission.error);
   if (options.time_report) print_times(options.files[0], emission.times);
   if (const int status = write_output(options, emission.bytes); status != tools::kDone) return status;
