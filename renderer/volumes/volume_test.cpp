@@ -212,6 +212,13 @@ TEST(Glow, FadesOnItsWayAndIsScatteredOnce) {
   EXPECT_NEAR(mean_of(scene).y, path, 0.03f * path);
 }
 
+/// Path tracing and photons see the same light, each with its number of samples, at which `scene` ends.
+void expect_same_for_photons(const std::string& scene, const char* of_path, const char* of_photons) {
+  const float path = mean_of(scene + of_path + ", integrator = 'path' }").x;
+  const float sppm = mean_of(scene + of_photons + ", integrator = 'sppm' }").x;
+  EXPECT_NEAR(sppm, path, 0.03f * path);
+}
+
 TEST(Glow, InARoomIsTheSameForPathsAndPhotons) {
   // Light that has bounced off a wall, and a mirror that shows the flame and what it lights.
   std::string scene =
@@ -220,9 +227,7 @@ TEST(Glow, InARoomIsTheSameForPathsAndPhotons) {
       "0.5, 0.4}, ior = 1 } } box{ center = {0.8, 0.5, 0}, size = 0.8, material = material{ color = 0.5, density = 1, "
       "emission = 2 } } sphere{ center = {-0.8, 0.5, 0.2}, radius = 0.5, material = material{ name = 'ball', color = "
       "0.9, metallic = 1, roughness = 0.1 } } render{ width = 24, height = 16, depth = 6, photons = 20000, samples = ";
-  float path = mean_of(scene + "400, integrator = 'path' }").x;
-  float sppm = mean_of(scene + "64, integrator = 'sppm' }").x;
-  EXPECT_NEAR(sppm, path, 0.03f * path);
+  expect_same_for_photons(scene, "400", "64");
 }
 
 TEST(Controls, AreRaisedBetweenPassesByWhatIsGreatest) {
@@ -323,9 +328,7 @@ TEST(Volumes, PhotonsPassThem) {
       "'floor', color = 0.7, ior = 1 } } box{ center = {0, 1, 0}, size = 0.8, material = material{ color "
       "= 0.9, density = 3 } } light{ type = 'sun', direction = {0.3, 1, 0.4}, color = 3 } render{ width = "
       "24, height = 16, depth = 8, photons = 20000, samples = ";
-  float path = mean_of(scene + "256, integrator = 'path' }").x;
-  float sppm = mean_of(scene + "48, integrator = 'sppm' }").x;
-  EXPECT_NEAR(sppm, path, 0.03f * path);
+  expect_same_for_photons(scene, "256", "48");
 }
 
 } // namespace
