@@ -1,6 +1,7 @@
 // The middle of an image lies towards -z, its top is +y.
 #include "renderer/lights/environment.h"
 
+#include "renderer/lights/endless.h"
 #include "renderer/sampling/sampler.h"
 #include "runtime/images/pyramid.h"
 
@@ -91,7 +92,7 @@ std::string Environment::load(const Light& light, const Scene& scene, ShaderSour
   std::vector<uint8_t> faulted(kShaderColumns);
   FaultLog ignored; // those that matter are met again
   constexpr int kEach = 4;
-  for (int y = 0; y < kShaderRows; ++y)
+  for (int y = 0; y < kShaderRows && endless_points(ignored) < kMostEndless; ++y)
     for (int part = 0; part < kEach; ++part) {
       for (int x = 0; x < kShaderColumns; ++x) {
         Vec2 at = Sampler(3, uint32_t(y * kShaderColumns + x), uint32_t(part)).two(0);

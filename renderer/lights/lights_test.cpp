@@ -2,6 +2,7 @@
 #include "renderer/test_support.h"
 
 #include <OpenImageIO/imageio.h>
+#include <atomic>
 #include <gmock/gmock.h>
 
 namespace moonshade::renderer {
@@ -214,6 +215,19 @@ TEST(Environments, RefuseImagesThatAreNoneOrTooLarge) {
     testing::FixedShaders shaders;
     EXPECT_THAT(prepare(std::move(*reading.scene), shaders).error, AllOf(HasSubstr("s.lua:1: "), HasSubstr(error)));
   }
+}
+
+/// A shader that does not end costs a million steps a point: what is measured before the render looks at few of them.
+TEST(Environments, AndLightsThatDoNotEndAreNotMeasuredForLong) {
+  std::atomic<int> points = 0;
+  auto s = std::make_shared<CppShader>();
+  for (const char* entry : {"environment", "emission"})
+    s->add(entry, {}, ValueType::Vec3, [&](const double*, double*) { return ++points, FaultCode::StepLimit; });
+  const std::string scene =
+      kAround + kAround +
+      "for x = 1, 9 do sphere{ center = {x, -50, 0}, material = material{ emission = 'fake.lua' } } end ";
+  EXPECT_EQ(render_text(scene + "render{ width = 1, height = 1, samples = 1 }", s).error, "");
+  EXPECT_LT(points, 20000);
 }
 
 TEST(Environments, FaultsAreSeenAndGiveNoLight) {

@@ -73,7 +73,7 @@ private:
   std::map<int64_t, std::vector<uint32_t>> objects_of_call_;
   std::set<int64_t> grouped_; ///< calls whose objects belong to a group
   size_t objects_placed_ = 0; ///< by groups and instances
-  size_t environments_ = 0;
+  size_t environments_ = 0, skies_ = 0;
   std::set<uint32_t> hidden_; ///< objects that only instances show
 };
 
@@ -387,6 +387,8 @@ void SceneBuilder::light(SceneFields& fields, const SceneCall& call) {
     if (is_black(light.direction)) fields.fail("'direction' has no direction");
   } else if (type == 1) {
     light.kind = LightKind::Sky;
+    constexpr size_t kMost = 64; // each has a table of its own, and is looked at for every ray that ends
+    if (++skies_ > kMost) fields.fail("a scene has at most " + std::to_string(kMost) + " skies");
     bool plain = !fields.has("zenith") && !fields.has("horizon") && !fields.has("ground");
     light.zenith = fields.color("zenith", plain ? Vec3(1) : Vec3(0.18f, 0.32f, 0.65f)) * color * intensity;
     light.horizon = fields.color("horizon", plain ? Vec3(1) : Vec3(0.62f, 0.70f, 0.80f)) * color * intensity;

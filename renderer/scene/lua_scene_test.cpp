@@ -154,6 +154,12 @@ TEST_F(LuaScene, BoundsWhatTheLibraryLoopsOver) {
   EXPECT_EQ(error("table.insert({}, 5, 1)"), "s.lua:1: bad argument #2 to 'insert' (position out of bounds)");
 }
 
+TEST_F(LuaScene, BoundsSurroundings) {
+  EXPECT_EQ(error("sphere{} for i = 1, 64 do light{ type = 'sky' } end"), "");
+  EXPECT_EQ(error("sphere{} for i = 1, 65 do light{ type = 'sky' } end"),
+            "s.lua:1: light: a scene has at most 64 skies");
+}
+
 TEST_F(LuaScene, StatesRangesInFull) {
   EXPECT_THAT(error("render{ samples = 0 }"), HasSubstr("'samples' lies between 1 and 16777216"));
   EXPECT_THAT(error("render{ seed = -1 }"), HasSubstr("'seed' lies between 0 and 4294967295"));

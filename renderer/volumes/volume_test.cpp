@@ -3,13 +3,15 @@
 #include "renderer/test_support.h"
 #include "renderer/volumes/volume_controls.h"
 
-#include <gtest/gtest.h>
+#include <atomic>
+#include <gmock/gmock.h>
 
 namespace moonshade::renderer {
 namespace {
 
 using testing::CppShader;
 using testing::FixedShaders;
+using ::testing::HasSubstr;
 using testing::TemporaryFolder;
 
 /// The mean of a small picture; controls are multiplied before.
@@ -319,6 +321,23 @@ TEST(Volumes, FaultsEndPathsInTheDark) {
   EXPECT_GT(r.result.fault_count, 0u);
   for (const Vec3& p : r.result.picture.pixels)
     EXPECT_TRUE(is_finite(p) && p.y <= 1 && p.x == p.y); // no magenta
+}
+
+TEST(Volumes, OfShadersThatDoNotEndAreNotMeasuredForLong) {
+  std::atomic<int> points = 0;
+  auto s = std::make_shared<CppShader>();
+  s->add("density", {}, ValueType::Number, [&](const double*, double*) { return ++points, FaultCode::StepLimit; });
+  const std::string scene =
+      "for x = 1, 9 do box{ center = {x, 0, 0}, material = material{ density = 'fake.lua' } } end "
+      "render{ width = 1, height = 1, samples = 1 }";
+  EXPECT_EQ(testing::render_text(scene, s).error, "");
+  EXPECT_LT(points, 20000);
+}
+
+TEST(Volumes, AreBoundedInNumber) {
+  const std::string scene =
+      "local m = material{ density = 1 } for x = 1, 1001 do sphere{ center = {x, 0, 0}, material = m } end";
+  EXPECT_THAT(testing::render_text(scene).error, HasSubstr("more than 1000 objects are volumes"));
 }
 
 TEST(Volumes, PhotonsPassThem) {
