@@ -78,8 +78,8 @@ std::string Environment::load(const Light& light, const Scene& scene, ShaderSour
     return load.error + (load.error.ends_with('\n') ? "" : "\n") + light.place +
            ": note: this light uses this shader\n";
   if (!load.unknown.empty()) return light.shader + ": " + load.unknown.begin()->second;
-  if (std::string error = EntryCall::bind(load.shader, light.shader, "environment", 3, e.call_); !error.empty())
-    return error;
+  std::string error = EntryCall::bind(load.shader, light.shader, "environment", 3, e.call_);
+  if (!error.empty() || !e.call_) return error;
   constexpr uint32_t kKnown = 7u << kIncident | 1u << kFootprint | 1u << kTime;
   if (e.call_->needs() & ~kKnown)
     return light.shader +
@@ -205,10 +205,11 @@ Vec3 Environment::radiance(const Vec3& direction) const {
 
 void Environment::shade(ShadingBatch& batch, const Vec3* directions, const float* spreads, size_t count, Vec3* radiance,
                         uint8_t* faulted, FaultLog& faults) const {
+  if (!call_) return; // of an image
   for (size_t k = 0; k < count; ++k) {
     Vec3 d = to_local(directions[k]);
     for (int c = 0; c < 3; ++c)
-      batch.inputs[size_t(kIncident + c)][k] = d[c];
+      batch.inputs[size_t(kIncident) + size_t(c)][k] = d[c];
     batch.inputs[kFootprint][k] = spreads[k];
   }
   std::fill_n(batch.scratch_codes.data(), count, uint8_t(0));

@@ -283,9 +283,9 @@ void GltfReader::transform(const tinygltf::ExtensionMap& extensions, const std::
   if (found == extensions.end() || !found->second.IsObject()) return;
   auto pair = [&](const char* name, Vec2 otherwise) {
     const tinygltf::Value& list = found->second.Get(name);
-    for (size_t k = 0; k < 2 && list.IsArray() && k < list.ArrayLen(); ++k)
+    for (int k = 0; k < 2 && list.IsArray() && size_t(k) < list.ArrayLen(); ++k)
       if (list.Get(k).IsNumber() && std::abs(list.Get(k).GetNumberAsDouble()) < 1e9)
-        otherwise[int(k)] = float(list.Get(k).GetNumberAsDouble());
+        otherwise[k] = float(list.Get(k).GetNumberAsDouble());
     return otherwise;
   };
   const Vec2 offset = pair("offset", Vec2(0));
@@ -352,7 +352,8 @@ void GltfReader::materials() {
       auto& alpha = m.images[size_t(Slot::Opacity)];
       opacity = number(pbr.baseColorFactor.size() == 4 ? pbr.baseColorFactor[3] : 1, 0, 1);
       // The same image as the colour's, of which all that can be said has been.
-      if ((alpha = m.images[size_t(Slot::Color)])) alpha->part = SlotImage::Part::Alpha, alpha->factor = *opacity;
+      alpha = m.images[size_t(Slot::Color)];
+      if (alpha) alpha->part = SlotImage::Part::Alpha, alpha->factor = *opacity;
       if (source.alphaMode == "MASK") {
         const float cutoff = number(source.alphaCutoff, 0, 1).x;
         if (alpha) alpha->cutoff = cutoff;

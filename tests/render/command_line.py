@@ -52,6 +52,11 @@ with tempfile.TemporaryDirectory() as folder:
     check(run("--help-scene", output="## camera").stdout == open(reference).read(),
           "docs/scene-reference.md is not what `moonrender --help-scene` prints")
 
+    with open("/dev/full", "w") as full:
+        for option in ("--help", "--version", "--help-scene"):
+            done = subprocess.run([moonrender, option], stdout=full, stderr=subprocess.PIPE, text=True)
+            check(done.returncode == 3 and "cannot write to standard output" in done.stderr, f"{option} to a full disk")
+
     # Calls at fault.
     run(status=2, error="no scene")
     run(bumpy, status=2, error="no output")

@@ -43,5 +43,7 @@ int main(int argc, char** argv) {
     return moonrender::run(*parsed.options);
   } catch (const std::bad_alloc&) {
     return moonrender::fail(tools::kMachineAtFault, "moonrender: error: not enough memory");
+  } catch (const std::exception& error) {
+    return moonrender::fail(tools::kMachineAtFault, std::string("moonrender: internal error: ") + error.what());
   }
 }
