@@ -46,8 +46,9 @@ private:
       out[c] = batch_.results[c].data();
     FaultReport ignored;
     entry.run(batch_, 0, cells_.size(), EntryCall::inputs_of(batch_, 0), out, batch_.scratch_codes.data(), ignored);
-    endless_ += uint64_t(std::count(batch_.scratch_codes.begin(), batch_.scratch_codes.begin() + cells_.size(),
-                                    uint8_t(FaultCode::StepLimit)));
+    endless_ +=
+        uint64_t(std::count(batch_.scratch_codes.begin(), batch_.scratch_codes.begin() + std::ptrdiff_t(cells_.size()),
+                            uint8_t(FaultCode::StepLimit)));
     for (size_t k = 0; k < cells_.size(); ++k)
       visit(cells_[k], Vec3(out[0][k], out[1][k], out[2][k]));
     cells_.clear();
@@ -106,7 +107,7 @@ std::unique_ptr<GlowGrid> make_glow(const Scene& scene, const PlacedObject& plac
 }
 
 std::unique_ptr<Volume> make_volume(const Scene& scene, const PlacedObject& placed, uint32_t id,
-                                    const CompiledMaterial& material, uint64_t& endless) {
+                                    const VolumeCalls& calls, uint64_t& endless) {
   auto volume = std::make_unique<Volume>();
   Box box;
   if (placed.object->shape == Shape::Sphere) {
@@ -123,16 +124,15 @@ std::unique_ptr<Volume> make_volume(const Scene& scene, const PlacedObject& plac
     volume->cell[c] = extent[c] / float(volume->size[c]);
   volume->low = box.low;
   const int* n = volume->size;
-  std::vector<float> greatest(cell_count(n), material.volume->density_constant);
-  if (material.volume->density)
+  std::vector<float> greatest(cell_count(n), calls.density_constant);
+  if (calls.density)
     Meter(scene, placed, id, volume->low, volume->cell, n, endless)
-        .look(*material.volume->density, kEach,
+        .look(*calls.density, kEach,
               [&](size_t cell, const Vec3& result) { greatest[cell] = std::max(greatest[cell], result.x); });
   // The neighbours' too: maxima lie between the points.
   float all = *std::max_element(greatest.begin(), greatest.end());
-  float least = material.volume->glows()
-                    ? std::max(all * kLeast, 16 / max_component(extent)) // glow is found where light collides
-                    : all * kLeast;
+  float least = calls.glows() ? std::max(all * kLeast, 16 / max_component(extent)) // glow is found where light collides
+                              : all * kLeast;
   volume->controls.resize(greatest.size());
   for (int z = 0; z < n[2]; ++z)
     for (int y = 0; y < n[1]; ++y)
@@ -146,7 +146,7 @@ std::unique_ptr<Volume> make_volume(const Scene& scene, const PlacedObject& plac
         const int here[] = {x, y, z};
         volume->controls[cell_index(here, n)] = std::max(Volume::kSafety * most, least);
       }
-  volume->glow = make_glow(scene, placed, id, *material.volume, box.low, extent, endless);
+  volume->glow = make_glow(scene, placed, id, calls, box.low, extent, endless);
   return volume;
 }
 
@@ -155,9 +155,9 @@ std::unique_ptr<Volume> make_volume(const Scene& scene, const PlacedObject& plac
 void fill_volume_inputs(ShadingBatch& batch, size_t k, const Vec3& local, const Vec3& world, const Vec3& direction,
                         float footprint, uint32_t object) {
   for (int c = 0; c < 3; ++c) {
-    batch.inputs[size_t(kLocal + c)][k] = local[c];
-    batch.inputs[size_t(kWorld + c)][k] = world[c];
-    batch.inputs[size_t(kIncident + c)][k] = direction[c];
+    batch.inputs[size_t(kLocal) + size_t(c)][k] = local[c];
+    batch.inputs[size_t(kWorld) + size_t(c)][k] = world[c];
+    batch.inputs[size_t(kIncident) + size_t(c)][k] = direction[c];
   }
   batch.inputs[kFootprint][k] = footprint;
   batch.id[k] = int64_t(object);
@@ -203,7 +203,7 @@ VolumeSet::VolumeSet(const Scene& scene, const Geometry& geometry, const Materia
     const PlacedObject& placed = geometry.objects()[id];
     const CompiledMaterial& material = materials[placed.object->materials[0]];
     if (!material.volume) continue;
-    volumes_[id] = make_volume(scene, placed, id, material, endless);
+    volumes_[id] = make_volume(scene, placed, id, *material.volume, endless);
     any_ = true;
   }
 }

@@ -89,7 +89,7 @@ public:
     cache_->add_file(name, make_input, &config, true);
     return name;
   }
-  void remove(OIIO::ustring name) { cache_->invalidate(name, true); }
+  void remove(const OIIO::ustring& name) { cache_->invalidate(name, true); }
 
   std::atomic<uint64_t> bytes_in_use = 0; ///< by pyramids
 
