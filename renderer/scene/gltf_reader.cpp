@@ -169,8 +169,11 @@ std::vector<uint32_t> GltfReader::indices(const tinygltf::Primitive& primitive, 
     return list;
   }
   const tinygltf::Accessor& accessor = at(gltf_.accessors, primitive.indices, "the accessor of " + what);
-  if (accessor.type != TINYGLTF_TYPE_SCALAR || accessor.componentType == TINYGLTF_COMPONENT_TYPE_FLOAT)
-    fail(what + " are no integers");
+  const int type = accessor.componentType;
+  const bool is_unsigned = type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
+                           type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ||
+                           type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
+  if (accessor.type != TINYGLTF_TYPE_SCALAR || !is_unsigned) fail(what + " are no unsigned integers");
   size_t size = component_size(accessor.componentType, what);
   Bytes bytes = bytes_of(accessor.bufferView, accessor.byteOffset, accessor.count, size, 0, what);
   for (size_t k = 0; k < accessor.count; ++k)

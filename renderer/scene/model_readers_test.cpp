@@ -231,7 +231,10 @@ TEST(Gltf, RefusesWhatReachesBeyondTheFile) {
   EXPECT_THAT(indices(R"({"bufferView":0,"byteOffset":6,"componentType":5123,"count":6,"type":"SCALAR"})"),
               HasSubstr("mesh 0, primitive 0: the face names vertex 16256 of 4")); // floats as indices
   EXPECT_THAT(indices(R"({"bufferView":1,"componentType":5126,"count":3,"type":"SCALAR"})"),
-              HasSubstr("are no integers"));
+              HasSubstr("are no unsigned integers"));
+  for (const char* type : {"5120", "5122", "5124", "5130"}) // signed, and double
+    EXPECT_NE(indices(R"({"bufferView":1,"componentType":)" + std::string(type) + R"(,"count":1,"type":"SCALAR"})"),
+              "");
   EXPECT_THAT(error(gltf(R"([{"mesh":3}])", data_uri())), HasSubstr("the mesh of node 0 is missing"));
   EXPECT_THAT(error(gltf(R"([{"mesh":0,"children":[0]}])", data_uri())),
               HasSubstr("node 0 has two parents, or is its own"));
