@@ -36,6 +36,14 @@ static std::string too_far_out(const Scene& scene) {
   return "";
 }
 
+/// Each has a grid of its own, of half a megabyte, filled by millions of points.
+static std::string too_many_volumes(const Scene& scene, const MaterialSet& materials) {
+  constexpr int64_t kMost = 1000;
+  const auto is_volume = [&](const Object& object) { return materials[object.materials[0]].volume.has_value(); };
+  if (std::ranges::count_if(scene.objects, is_volume) <= kMost) return "";
+  return scene.file + ": more than " + std::to_string(kMost) + " objects are volumes";
+}
+
 static std::string load_environments(const Scene& scene, ShaderSource& shaders, const Overrides& overrides,
                                      std::vector<Environment>& environments, std::string& warnings) {
   for (const Light& light : scene.lights) {
@@ -59,6 +67,7 @@ Preparation prepare(Scene scene, ShaderSource& shaders, const Overrides& overrid
   prepared->scene = std::move(scene);
   auto start = std::chrono::steady_clock::now();
   result.error = MaterialSet::build(prepared->scene, shaders, overrides, prepared->materials, result.warnings);
+  if (result.error.empty()) result.error = too_many_volumes(prepared->scene, prepared->materials);
   std::vector<Environment> environments;
   if (result.error.empty())
     result.error = load_environments(prepared->scene, shaders, overrides, environments, result.warnings);

@@ -22,17 +22,6 @@ std::string diagnostics_text(const CheckedShader& shader, bool color) {
   return text.str();
 }
 
-/// What code generation refused, as a diagnostic of the file where it concerns the shader.
-std::string refusal(const CheckedShader& shader, const codegen::Generated& generated, bool color) {
-  if (generated.exceeded_limit == 0) return "error: " + generated.error + "\n";
-  Diagnostics diagnostics;
-  diagnostics.report(DiagnosticCode::TooLarge, Span{FileId{0}, 0, 0},
-                     {generated.error, std::to_string(generated.exceeded_limit)});
-  std::ostringstream text;
-  print_text(diagnostics, shader.sources(), text, color);
-  return text.str();
-}
-
 std::vector<ParameterSlot> find_slots(const ir::Module& module, const codegen::CodeInfo& code) {
   std::vector<ParameterSlot> slots;
   for (size_t i = 0; i < module.globals.size(); ++i)
@@ -163,7 +152,9 @@ Compilation compile_anew(const CheckedShader& shader, const SourceClosure& sourc
   }
   std::string object;
   codegen::Generated generated = generate(*module, first, object, times);
-  if (!generated.error.empty()) return {nullptr, diagnostics + refusal(shader, generated, options.color_diagnostics)};
+  if (!generated.error.empty())
+    return {nullptr, diagnostics + refusal(shader, generated, options.color_diagnostics),
+            generated.exceeded_limit != 0};
   compiled->info = compiled_info(shader.info(), *module, options);
   compiled->slots = find_slots(*module, generated.info);
   for (const codegen::FaultPlaceInfo& place : generated.info.places)

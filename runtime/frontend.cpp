@@ -205,6 +205,16 @@ std::string generated_bytes(const CheckedShader& shader, const ir::Module& modul
 
 } // namespace
 
+std::string refusal(const CheckedShader& shader, const codegen::Generated& generated, bool color) {
+  if (generated.exceeded_limit == 0) return "error: " + generated.error + "\n";
+  Diagnostics diagnostics;
+  diagnostics.report(DiagnosticCode::TooLarge, Span{FileId{0}, 0, 0},
+                     {generated.error, std::to_string(generated.exceeded_limit)});
+  std::ostringstream text;
+  print_text(diagnostics, shader.sources(), text, color);
+  return text.str();
+}
+
 Emission emit(const CheckedShader& shader, Stage stage, const CompileOptions& options, const std::string& prefix) {
   Emission emission;
   emission.times = shader.times();
@@ -235,7 +245,9 @@ Emission emit(const CheckedShader& shader, Stage stage, const CompileOptions& op
     watch.lap();
     if (generated.error.empty()) emission.bytes = generated_bytes(shader, module, stage, options, prefix, generated);
     emission.times.codegen = watch.lap();
-    emission.error = generated.error;
+    emission.is_too_large = generated.exceeded_limit != 0;
+    if (!generated.error.empty())
+      emission.error = emission.is_too_large ? refusal(shader, generated, options.color_diagnostics) : generated.error;
   }
   emission.times.total += emission.times.ir + emission.times.emit + emission.times.optimize + emission.times.codegen;
   return emission;

@@ -48,6 +48,8 @@ struct Emission {
   std::string bytes;
   CompileTimes times{}; ///< of the stages that it took
   std::string error;    ///< for instance an unknown CPU; empty where there is none
+  /// The checked shader exceeds a limit, of which `error` is the diagnostic as text.
+  bool is_too_large = false;
 };
 /// The text (or object file) of one stage of an `ok()` shader; Ast also of one that is not.
 /// `prefix` begins the names in Object and Header; empty: the file's name.

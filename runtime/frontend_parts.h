@@ -35,6 +35,8 @@ ir::Module build_printing_module(const CheckedShader& shader, const CompileOptio
 std::string optimize_module(ir::Module& module, const ShaderInfo& info, const CompileOptions& options);
 /// The shader's facts, with the entries of the module, in its order.
 ShaderInfo compiled_info(const ShaderInfo& info, const ir::Module& module, const CompileOptions& options);
+/// What code generation refused, as a diagnostic of the file where it concerns the shader.
+std::string refusal(const CheckedShader& shader, const codegen::Generated& generated, bool color);
 /// A fault site's place in the source.
 FaultSite resolve(const SourceSet& sources, const codegen::FaultPlaceInfo& place);
 codegen::Options codegen_options(const CompileOptions& options);

@@ -9,9 +9,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <ostream>
 #include <random>
 
-namespace moonshade::testing {
+namespace moonshade {
+
+inline void PrintTo(Precision precision, std::ostream* out) { *out << (precision == Precision::F32 ? "f32" : "f64"); }
+
+namespace testing {
 
 /// The library's function with this symbol.
 inline const LibraryFunction& row(std::string_view symbol) {
@@ -98,7 +103,8 @@ protected:
 };
 inline auto both_precisions() { return ::testing::Values(Precision::F32, Precision::F64); }
 inline std::string precision_name(const ::testing::TestParamInfo<Precision>& info) {
-  return info.param == Precision::F32 ? "f32" : "f64";
+  return ::testing::PrintToString(info.param);
 }
 
-} // namespace moonshade::testing
+} // namespace testing
+} // namespace moonshade

@@ -210,6 +210,7 @@ public:
 struct Compilation {
   std::shared_ptr<const Program> program; ///< null where there was an error
   std::string diagnostics;                ///< errors and warnings as text; empty where there are none
+  bool is_too_large = false;              ///< there is no program because the checked shader exceeds a limit
 };
 
 /// Compiles the shader `text`; `name` is its file's name in messages.

@@ -123,6 +123,7 @@ TEST(CompiledShader, RefusesWhatIsTooLarge) {
     text += "  x = x * p.y + p.z * 0.5 - x * x * p.z\n";
   const Compilation compilation = compile("large.lua", text + "  return x\nend\n", {});
   EXPECT_EQ(compilation.program, nullptr);
+  EXPECT_TRUE(compilation.is_too_large);
   EXPECT_THAT(compilation.diagnostics, HasSubstr("large.lua:"));
   EXPECT_THAT(compilation.diagnostics, HasSubstr("operations (limit "));
   EXPECT_THAT(compilation.diagnostics, HasSubstr("too-large"));

@@ -264,7 +264,7 @@ TEST_P(DerivativeExports, GiveTheRowsOwnValueAndTheSameBitsAtEveryWidth) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Precisions, DerivativeExports, testing::Values(Precision::F32, Precision::F64),
-                         [](const auto& info) { return info.param == Precision::F32 ? "f32" : "f64"; });
+                         [](const auto& info) { return testing::PrintToString(info.param); });
 
 /// What dual.h states.
 template <class Row, unsigned Active, class... A> double slope(A... arguments) {

@@ -4,10 +4,15 @@
 
 #include "stdlib/library.h"
 
+#include <ostream>
 #include <span>
 #include <vector>
 
-namespace moonshade::test {
+namespace moonshade {
+
+inline void PrintTo(Precision precision, std::ostream* out) { *out << (precision == Precision::F32 ? "f32" : "f64"); }
+
+namespace test {
 
 /// The export of a row of the table or of a derivative, as compiled from its bitcode.
 void* export_address(const LibraryFunction& row, Precision precision, unsigned width);
@@ -29,4 +34,5 @@ std::vector<Column> run_export(const LibraryFunction& row, Precision precision, 
 /// True where the machine can run what the build made of the bitcode.
 bool exports_can_run();
 
-} // namespace moonshade::test
+} // namespace test
+} // namespace moonshade

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <ostream>
 #include <string_view>
 
 namespace moonshade::test {
@@ -44,6 +45,8 @@ struct OneNumber {
   std::string_view function; ///< its name in C++, that of the row but for hashes
   double (*reference)(double);
   double limit; ///< of the error, in units in the last place
+
+  friend void PrintTo(const OneNumber& one, std::ostream* out) { *out << one.function; }
 };
 
 namespace references {
@@ -123,6 +126,7 @@ struct TwoNumbers {
   double quotients; ///< pairs whose quotient is greater are not compared
 
   bool compares(float x, float y) const { return !(std::abs(double(x) / double(y)) >= quotients); }
+  friend void PrintTo(const TwoNumbers& two, std::ostream* out) { *out << two.symbol; }
 };
 
 namespace references {

@@ -28,6 +28,8 @@ struct Pattern {
   const char* name;
   std::function<double(Vec2, double)> value;
   double worst, mean_square;
+
+  friend void PrintTo(const Pattern& pattern, std::ostream* out) { *out << pattern.name; }
 };
 
 /// A plane through a solid, along none of its axes.

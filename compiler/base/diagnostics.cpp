@@ -38,6 +38,13 @@ std::string_view name_of(Severity severity) {
   return "?";
 }
 
+/// What messages quote: a name or a chain of calls may be as long as the file.
+static std::string shortened(const std::string& text) {
+  constexpr size_t kMost = 1000, kHead = 400, kTail = 100;
+  if (text.size() <= kMost) return text;
+  return text.substr(0, kHead) + " ... " + text.substr(text.size() - kTail);
+}
+
 std::string format_message(DiagnosticCode code, std::initializer_list<std::string> args) {
   const std::string_view pattern = row_of(code).message;
   std::string result;
@@ -48,7 +55,7 @@ std::string format_message(DiagnosticCode code, std::initializer_list<std::strin
       ++i;
     } else if (rest.size() >= 3 && rest[0] == '{' && rest[1] >= '0' && rest[1] <= '9' && rest[2] == '}') {
       const auto index = static_cast<size_t>(rest[1] - '0');
-      if (index < args.size()) result += args.begin()[index];
+      if (index < args.size()) result += shortened(args.begin()[index]);
       i += 2;
     } else {
       result += rest[0];

@@ -191,7 +191,7 @@ std::string write_checkpoint(const std::string& path, const Identity& identity, 
 }
 
 OpenedCheckpoint open_checkpoint(const std::string& path, const Identity& identity) {
-  int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK); // of a pipe, too: which is damaged, then
   if (file < 0 && errno == ENOENT) return {};
   if (file < 0) return {nullptr, path + ": " + std::strerror(errno)};
   auto reader = std::make_unique<Reader>(file);

@@ -2,6 +2,7 @@
 
 #include "renderer/geometry/float_environment.h"
 #include "renderer/integrators/hit_shader.h"
+#include "renderer/lights/endless.h"
 #include "renderer/sampling/sampler.h"
 
 namespace moonshade::renderer {
@@ -24,6 +25,7 @@ public:
   /// What is seen counts for sums[owner].
   void look(uint32_t object, uint32_t primitive, const Vec3& at, const Vec3& normal, std::vector<DVec3>& sums,
             uint32_t owner) {
+    if (endless_) return;
     float away = 1e-3f * std::max(1e-3f, geometry_.bounds().radius());
     rays_.push_back({at + normal * away, 0, -normal, kInfinity});
     shader_.add(owner, rays_.back(), {object, primitive, away}, 0, 0);
@@ -36,6 +38,7 @@ public:
     });
     shader_.clear();
     rays_.clear();
+    endless_ = endless_points(faults_) >= kMostEndless;
   }
 
 private:
@@ -45,6 +48,7 @@ private:
   std::vector<Ray> rays_;
   FaultLog faults_;
   WorkerStats stats_;
+  bool endless_ = false;
 };
 
 /// Where emission varies, a share of the object's mean everywhere: points may be brighter than what was seen of their

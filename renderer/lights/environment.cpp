@@ -1,9 +1,10 @@
 // The middle of an image lies towards -z, its top is +y.
 #include "renderer/lights/environment.h"
 
+#include "renderer/lights/endless.h"
 #include "renderer/sampling/sampler.h"
+#include "runtime/images/pyramid.h"
 
-#include <OpenImageIO/imageio.h>
 #include <algorithm>
 
 namespace moonshade::renderer {
@@ -35,27 +36,21 @@ std::array<float, 9> harmonics_at(const Vec3& d) {
           0.546274f * (d.x * d.x - d.y * d.y)};
 }
 
-float srgb_decode(float x) { return x <= 0.04045f ? x / 12.92f : std::pow((x + 0.055f) / 1.055f, 2.4f); }
-
 } // namespace
 
 std::string Environment::read_image(const std::string& file) {
-  auto input = OIIO::ImageInput::open(file);
-  if (!input) return file + ": " + OIIO::geterror();
-  const OIIO::ImageSpec spec = input->spec();
-  if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1 || int64_t(spec.width) * spec.height > (1 << 28))
-    return file + ": is no image of a usable size";
-  std::vector<float> values(size_t(spec.width) * size_t(spec.height) * size_t(spec.nchannels));
-  if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, values.data()))
-    return file + ": " + input->geterror();
-  bool encoded = spec.format.basetype == OIIO::TypeDesc::UINT8;
-  width_ = spec.width, height_ = spec.height;
-  pixels_.resize(size_t(width_) * size_t(height_));
-  for (size_t k = 0; k < pixels_.size(); ++k)
-    for (int c = 0; c < 3; ++c) {
-      float x = values[k * size_t(spec.nchannels) + size_t(std::min(c, spec.nchannels >= 3 ? 2 : 0))];
-      x = x > 0 && x < 1e30f ? x : 0; // neither NaN nor infinity
-      pixels_[k][c] = (encoded ? srgb_decode(x) : x) * scale_[c];
+  Pyramid image;
+  if (std::string error = image.read(file, false); !error.empty()) return file + ": " + error;
+  width_ = image.width(0), height_ = image.height(0);
+  pixels_.reserve(size_t(width_) * size_t(height_));
+  for (int y = 0; y < height_; ++y)
+    for (int x = 0; x < width_; ++x) {
+      const Texel texel = image.texel(0, x, y);
+      Vec3& pixel = pixels_.emplace_back(0.0f);
+      for (int c = 0; c < 3; ++c) {
+        const float number = texel[size_t(c)];
+        pixel[c] = (number > 0 && number < 1e30f ? number : 0) * scale_[c];
+      }
     }
   return "";
 }
@@ -83,8 +78,8 @@ std::string Environment::load(const Light& light, const Scene& scene, ShaderSour
     return load.error + (load.error.ends_with('\n') ? "" : "\n") + light.place +
            ": note: this light uses this shader\n";
   if (!load.unknown.empty()) return light.shader + ": " + load.unknown.begin()->second;
-  if (std::string error = EntryCall::bind(load.shader, light.shader, "environment", 3, e.call_); !error.empty())
-    return error;
+  std::string error = EntryCall::bind(load.shader, light.shader, "environment", 3, e.call_);
+  if (!error.empty() || !e.call_) return error;
   constexpr uint32_t kKnown = 7u << kIncident | 1u << kFootprint | 1u << kTime;
   if (e.call_->needs() & ~kKnown)
     return light.shader +
@@ -97,7 +92,7 @@ std::string Environment::load(const Light& light, const Scene& scene, ShaderSour
   std::vector<uint8_t> faulted(kShaderColumns);
   FaultLog ignored; // those that matter are met again
   constexpr int kEach = 4;
-  for (int y = 0; y < kShaderRows; ++y)
+  for (int y = 0; y < kShaderRows && endless_points(ignored) < kMostEndless; ++y)
     for (int part = 0; part < kEach; ++part) {
       for (int x = 0; x < kShaderColumns; ++x) {
         Vec2 at = Sampler(3, uint32_t(y * kShaderColumns + x), uint32_t(part)).two(0);
@@ -210,10 +205,11 @@ Vec3 Environment::radiance(const Vec3& direction) const {
 
 void Environment::shade(ShadingBatch& batch, const Vec3* directions, const float* spreads, size_t count, Vec3* radiance,
                         uint8_t* faulted, FaultLog& faults) const {
+  if (!call_) return; // of an image
   for (size_t k = 0; k < count; ++k) {
     Vec3 d = to_local(directions[k]);
     for (int c = 0; c < 3; ++c)
-      batch.inputs[size_t(kIncident + c)][k] = d[c];
+      batch.inputs[size_t(kIncident) + size_t(c)][k] = d[c];
     batch.inputs[kFootprint][k] = spreads[k];
   }
   std::fill_n(batch.scratch_codes.data(), count, uint8_t(0));

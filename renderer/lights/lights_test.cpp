@@ -2,11 +2,13 @@
 #include "renderer/test_support.h"
 
 #include <OpenImageIO/imageio.h>
+#include <atomic>
 #include <gmock/gmock.h>
 
 namespace moonshade::renderer {
 namespace {
 
+using ::testing::AllOf;
 using testing::CppShader;
 using ::testing::HasSubstr;
 using testing::render_text;
@@ -199,6 +201,35 @@ TEST(Environments, OfImagesHaveTheirMiddleInFront) {
                Vec3(100, 200, 300) * (0.5f / kPi * solid * std::sqrt(0.5f)), 0.03f);
 }
 
+TEST(Environments, RefuseImagesThatAreNoneOrTooLarge) {
+  TemporaryFolder folder;
+  folder.write("huge.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 60000 +X 60000\n");
+  folder.write("page.png", "<html>");
+  folder.write("picture.gif", "GIF89a");
+  for (const auto& [file, error] : std::map<std::string, std::string>{
+           {"huge.hdr", "it is too large"}, {"page.png", "page.png: "}, {"picture.gif", "no image that is read"}}) {
+    const Folders folders = folder.folders();
+    const std::string text = "sphere{} light{ type = 'environment', image = '" + file + "' }";
+    SceneReading reading = parse_lua_scene(folder / "s.lua", text, folders);
+    ASSERT_TRUE(reading.scene) << reading.error;
+    testing::FixedShaders shaders;
+    EXPECT_THAT(prepare(std::move(*reading.scene), shaders).error, AllOf(HasSubstr("s.lua:1: "), HasSubstr(error)));
+  }
+}
+
+/// A shader that does not end costs a million steps a point: what is measured before the render looks at few of them.
+TEST(Environments, AndLightsThatDoNotEndAreNotMeasuredForLong) {
+  std::atomic<int> points = 0;
+  auto s = std::make_shared<CppShader>();
+  for (const char* entry : {"environment", "emission"})
+    s->add(entry, {}, ValueType::Vec3, [&](const double*, double*) { return ++points, FaultCode::StepLimit; });
+  const std::string scene =
+      kAround + kAround +
+      "for x = 1, 9 do sphere{ center = {x, -50, 0}, material = material{ emission = 'fake.lua' } } end ";
+  EXPECT_EQ(render_text(scene + "render{ width = 1, height = 1, samples = 1 }", s).error, "");
+  EXPECT_LT(points, 20000);
+}
+
 TEST(Environments, FaultsAreSeenAndGiveNoLight) {
   auto s = std::make_shared<CppShader>();
   s->add("environment", {{"i", ValueType::Vec3}}, ValueType::Vec3,
@@ -214,6 +245,10 @@ TEST(Environments, FaultsAreSeenAndGiveNoLight) {
 TEST(Environments, ErrorsNameThePlace) {
   EXPECT_THAT(render_text("sphere{} light{ type = 'environment' }").error, HasSubstr("either 'image' or 'shader'"));
   EXPECT_THAT(render_text("sphere{} light{ type = 'environment', image = 'fake.lua' }").error, HasSubstr("fake.lua"));
+  std::string many = "sphere{} ";
+  for (int k = 0; k < 5; ++k)
+    many += kAround;
+  EXPECT_THAT(render_text(many).error, HasSubstr("light: a scene has at most 4 environments"));
   auto wrong = std::make_shared<CppShader>();
   wrong->add("environment", {{"uv", ValueType::Vec2}}, ValueType::Vec3, {});
   EXPECT_THAT(render_text("sphere{} " + kAround, wrong).error, HasSubstr("the surroundings do not have"));

@@ -18,6 +18,14 @@ ResolvedPath Folders::resolve(const std::string& base_folder, const std::string&
   return resolved;
 }
 
+ResolvedPath Folders::resolve_or_beside(const std::string& base_folder, const std::string& name) const {
+  ResolvedPath resolved = resolve(base_folder, name);
+  const size_t separator = name.find_last_of("/\\");
+  if (resolved.error.empty() || separator == std::string::npos) return resolved;
+  const ResolvedPath beside = resolve(base_folder, name.substr(separator + 1));
+  return beside.error.empty() ? beside : resolved;
+}
+
 FileText read_file(const std::string& path, uint64_t limit) {
   std::error_code error;
   if (fs::is_directory(path, error)) return {"", path + ": is a folder"};

@@ -17,6 +17,10 @@ public:
   /// The file `name` as written in a file that lies in `base_folder`.
   ResolvedPath resolve(const std::string& base_folder, const std::string& name) const;
 
+  /// The same, but a name that leads nowhere ("C:\\models\\wood.png", from another machine) may be that of a file which
+  /// came along: the last part of it, in `base_folder`.
+  ResolvedPath resolve_or_beside(const std::string& base_folder, const std::string& name) const;
+
   /// Every file that was resolved so far.
   const std::set<std::string>& used() const { return used_; }
 

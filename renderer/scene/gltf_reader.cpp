@@ -30,7 +30,10 @@ template <typename T> const T& at(const std::vector<T>& items, int index, const 
 class GltfReader {
 public:
   GltfReader(const std::string& path, const tinygltf::Model& gltf, const Folders& folders)
-      : path_(path), gltf_(gltf), folders_(folders) {}
+      : path_(path), gltf_(gltf), folders_(folders) {
+    for (const tinygltf::Buffer& buffer : gltf_.buffers)
+      elements_left_ += 8 * uint64_t(buffer.data.size());
+  }
   Model read();
 
 private:
@@ -40,6 +43,7 @@ private:
   };
   Bytes bytes_of(int view, size_t offset, size_t count, size_t size, int stride, const std::string& what) const;
   std::vector<float> floats(int accessor, size_t components, const std::string& what) const;
+  void afford(size_t elements, const std::string& what);
   void sparse(const tinygltf::Accessor& accessor, std::vector<float>& values, size_t components,
               const std::string& what) const;
   std::vector<uint32_t> indices(const tinygltf::Primitive& primitive, size_t vertices, const std::string& what) const;
@@ -58,6 +62,7 @@ private:
   const Folders& folders_;
   Model model_;
   bool normal_maps_ = false;
+  uint64_t elements_left_ = uint64_t(1) << 25; ///< that primitives may read, which may share what they read
   std::map<std::pair<int, size_t>, std::shared_ptr<const Mesh>> meshes_; ///< by mesh and primitive
   std::map<int, std::shared_ptr<const std::string>> image_bytes_;        ///< by image: kept once
 };
@@ -105,6 +110,12 @@ size_t component_size(int type, const std::string& what) {
   int size = tinygltf::GetComponentSizeInBytes(uint32_t(type));
   if (size <= 0 || size > 4) fail(what + " has components of an unknown type");
   return size_t(size);
+}
+
+/// However many primitives read the same bytes: what a file comes to is bounded by its size.
+void GltfReader::afford(size_t elements, const std::string& what) {
+  if (elements > elements_left_) fail(what + ": the primitives come to too many elements for the size of the file");
+  elements_left_ -= elements;
 }
 
 /// Values that stand in place of others (or of zeros).
@@ -158,8 +169,11 @@ std::vector<uint32_t> GltfReader::indices(const tinygltf::Primitive& primitive, 
     return list;
   }
   const tinygltf::Accessor& accessor = at(gltf_.accessors, primitive.indices, "the accessor of " + what);
-  if (accessor.type != TINYGLTF_TYPE_SCALAR || accessor.componentType == TINYGLTF_COMPONENT_TYPE_FLOAT)
-    fail(what + " are no integers");
+  const int type = accessor.componentType;
+  const bool is_unsigned = type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
+                           type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ||
+                           type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
+  if (accessor.type != TINYGLTF_TYPE_SCALAR || !is_unsigned) fail(what + " are no unsigned integers");
   size_t size = component_size(accessor.componentType, what);
   Bytes bytes = bytes_of(accessor.bufferView, accessor.byteOffset, accessor.count, size, 0, what);
   for (size_t k = 0; k < accessor.count; ++k)
@@ -183,6 +197,7 @@ std::shared_ptr<const Mesh> GltfReader::mesh(const tinygltf::Primitive& primitiv
   MeshBuilder builder;
   std::vector<float> p = floats(attribute("POSITION"), 3, what + ": POSITION");
   size_t vertices = p.size() / 3;
+  afford(vertices, what);
   for (size_t k = 0; k < vertices; ++k)
     builder.positions().emplace_back(p[3 * k], p[3 * k + 1], p[3 * k + 2]);
   if (attribute("NORMAL") >= 0) {
@@ -198,6 +213,7 @@ std::shared_ptr<const Mesh> GltfReader::mesh(const tinygltf::Primitive& primitiv
       builder.uvs().emplace_back(uv[2 * k], 1 - uv[2 * k + 1]); // v points up here, down there
   }
   std::vector<uint32_t> list = indices(primitive, vertices, what + ": indices");
+  afford(list.size(), what);
   size_t step = mode == TINYGLTF_MODE_TRIANGLES ? 3 : 1;
   for (size_t k = 0; k + 2 < list.size(); k += step) {
     bool turned = mode == TINYGLTF_MODE_TRIANGLE_STRIP && k % 2 == 1;
@@ -270,9 +286,9 @@ void GltfReader::transform(const tinygltf::ExtensionMap& extensions, const std::
   if (found == extensions.end() || !found->second.IsObject()) return;
   auto pair = [&](const char* name, Vec2 otherwise) {
     const tinygltf::Value& list = found->second.Get(name);
-    for (size_t k = 0; k < 2 && list.IsArray() && k < list.ArrayLen(); ++k)
+    for (int k = 0; k < 2 && list.IsArray() && size_t(k) < list.ArrayLen(); ++k)
       if (list.Get(k).IsNumber() && std::abs(list.Get(k).GetNumberAsDouble()) < 1e9)
-        otherwise[int(k)] = float(list.Get(k).GetNumberAsDouble());
+        otherwise[k] = float(list.Get(k).GetNumberAsDouble());
     return otherwise;
   };
   const Vec2 offset = pair("offset", Vec2(0));
@@ -339,7 +355,8 @@ void GltfReader::materials() {
       auto& alpha = m.images[size_t(Slot::Opacity)];
       opacity = number(pbr.baseColorFactor.size() == 4 ? pbr.baseColorFactor[3] : 1, 0, 1);
       // The same image as the colour's, of which all that can be said has been.
-      if ((alpha = m.images[size_t(Slot::Color)])) alpha->part = SlotImage::Part::Alpha, alpha->factor = *opacity;
+      alpha = m.images[size_t(Slot::Color)];
+      if (alpha) alpha->part = SlotImage::Part::Alpha, alpha->factor = *opacity;
       if (source.alphaMode == "MASK") {
         const float cutoff = number(source.alphaCutoff, 0, 1).x;
         if (alpha) alpha->cutoff = cutoff;

@@ -3,6 +3,7 @@
 
 #include "renderer/scene/nearest_name.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <ctime>
 #include <lua.hpp>
@@ -17,6 +18,8 @@ struct Budget {
   size_t calls_left = 0;
   double end = 0; ///< in seconds of this thread
   uint32_t entered = 0;
+  int line = 0;              ///< that was seen to run last
+  bool is_exhausted = false; ///< memory was refused
 };
 
 /// Processor time of this thread.
@@ -29,7 +32,10 @@ double thread_seconds() {
 void* allocate(void* user, void* block, size_t old_size, size_t new_size) {
   Budget& budget = *static_cast<Budget*>(user);
   if (!block) old_size = 0;
-  if (new_size > old_size && budget.used + (new_size - old_size) > budget.limit) return nullptr;
+  if (new_size > old_size && budget.used + (new_size - old_size) > budget.limit) {
+    budget.is_exhausted = true; // Lua collects its garbage and asks once more
+    return nullptr;
+  }
   if (new_size == 0) {
     std::free(block);
     budget.used -= old_size;
@@ -50,6 +56,14 @@ Budget& budget_of(lua_State* L) {
 
 constexpr uint32_t kEnteredInterval = 16;
 
+/// The innermost level from `level` on that is a line of the scene, which `where` then tells; or `level`.
+int level_of_line(lua_State* L, int level, lua_Debug& where) {
+  for (int at = level; lua_getstack(L, at, &where); ++at)
+    if (lua_getinfo(L, "l", &where) && where.currentline > 0) return at;
+  where.currentline = 0;
+  return level;
+}
+
 [[noreturn]] void end_run(lua_State* L, int level, const char* limit) {
   luaL_where(L, level);
   lua_pushfstring(L, "the scene runs too long (%s limit)", limit);
@@ -63,7 +77,9 @@ constexpr uint32_t kEnteredInterval = 16;
 void watch(lua_State* L, lua_Debug* event) {
   Budget& budget = budget_of(L);
   const bool is_call = event->event != LUA_HOOKCOUNT;
-  const int level = is_call ? 1 : 0; // what runs, not what it calls
+  lua_Debug where;
+  const int level = level_of_line(L, is_call ? 1 : 0, where); // what runs, not what it calls
+  if (where.currentline > 0) budget.line = where.currentline;
   if (!is_call) {
     if (budget.instructions_left < kHookInterval) end_run(L, level, "instruction");
     budget.instructions_left -= kHookInterval;
@@ -134,6 +150,32 @@ int vector(lua_State* L) {
   return 1;
 }
 
+/// `string.rep`, whose copies of nothing would take the whole range of integers.
+int repeat(lua_State* L) {
+  size_t length = 0, separator = 0;
+  luaL_checklstring(L, 1, &length);
+  luaL_optlstring(L, 3, "", &separator);
+  if (length + separator == 0) return lua_pushliteral(L, ""), 1;
+  return lua_tocfunction(L, lua_upvalueindex(1))(L);
+}
+
+/// `table.insert` and `table.remove`: of a table with holes Lua may give a length of up to 2^63, over which they loop.
+int change_list(lua_State* L) {
+  luaL_checktype(L, 1, LUA_TTABLE);
+  constexpr size_t kMostItems = size_t(1) << 24; // more fit into no sandbox
+  if (lua_rawlen(L, 1) > kMostItems) return luaL_error(L, "the table is too long, or has holes");
+  return lua_tocfunction(L, lua_upvalueindex(1))(L);
+}
+
+/// Puts `function`, which has the original as its upvalue, in the place of a library's function.
+void guard(lua_State* L, const char* library, const char* name, lua_CFunction function) {
+  lua_getglobal(L, library);
+  lua_getfield(L, -1, name);
+  lua_pushcclosure(L, function, 1);
+  lua_setfield(L, -2, name);
+  lua_pop(L, 1);
+}
+
 // Keys in an order that does not depend on addresses, so that a scene built with `pairs` is the same every time.
 const char kSortedPairs[] = R"(
 local next, sort, type = next, table.sort, type
@@ -188,6 +230,9 @@ int set_up(lua_State* L) {
   remove(L, nullptr, kBase);
   remove(L, LUA_STRLIBNAME, kString);
   remove(L, LUA_TABLIBNAME, kTable);
+  guard(L, LUA_STRLIBNAME, "rep", repeat);
+  guard(L, LUA_TABLIBNAME, "insert", change_list);
+  guard(L, LUA_TABLIBNAME, "remove", change_list);
   for (const char* key : {&kCalls, &kHandles, &kPrinted}) {
     lua_newtable(L);
     lua_rawsetp(L, LUA_REGISTRYINDEX, key);
@@ -300,6 +345,14 @@ private:
   size_t values_left_ = 5'000'000;
 };
 
+/// What Lua's own loader passes over: a byte order mark, and a first line that begins with '#' (but for its end, so
+/// that lines keep their numbers).
+std::string_view without_head(std::string_view text) {
+  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+  if (text.starts_with('#')) text.remove_prefix(std::min(text.find_first_of("\r\n"), text.size()));
+  return text;
+}
+
 std::string error_text(lua_State* L, std::span<const std::string_view> functions) {
   const char* raw = lua_tostring(L, -1);
   std::string text = raw ? raw : "the scene raised an error that is no string";
@@ -324,10 +377,17 @@ SandboxRun run_scene_file(const std::string& name, std::string_view text, std::s
   std::string chunk_name = "@" + name;
   bool ok = lua_pcall(L, 1, 0, 0) == LUA_OK;
   lua_sethook(L, watch, LUA_MASKCOUNT | LUA_MASKCALL, kHookInterval);
+  text = without_head(text);
   ok = ok && luaL_loadbufferx(L, text.data(), text.size(), chunk_name.c_str(), "t") == LUA_OK;
-  ok = ok && lua_pcall(L, 0, 0, 0) == LUA_OK;
+  const int status = ok ? lua_pcall(L, 0, 0, 0) : LUA_ERRSYNTAX;
+  ok = status == LUA_OK;
   lua_sethook(L, nullptr, 0, 0);
   if (!ok) run.error = error_text(L, functions);
+  if (status == LUA_ERRMEM && budget.is_exhausted) {
+    const std::string line = budget.line > 0 ? ":" + std::to_string(budget.line) : "";
+    run.error = name + line + ": the scene takes more than " + std::to_string(limits.memory_bytes >> 20) +
+                " MiB while it is read (memory limit)";
+  }
   if (!ok && run.error.find(name) != 0) run.error = name + ": " + run.error;
   budget.limit = SIZE_MAX;
   lua_settop(L, 0);

@@ -73,6 +73,7 @@ private:
   std::map<int64_t, std::vector<uint32_t>> objects_of_call_;
   std::set<int64_t> grouped_; ///< calls whose objects belong to a group
   size_t objects_placed_ = 0; ///< by groups and instances
+  size_t environments_ = 0, skies_ = 0;
   std::set<uint32_t> hidden_; ///< objects that only instances show
 };
 
@@ -284,7 +285,7 @@ void SceneBuilder::model(SceneFields& fields, SceneFunction function) {
 }
 
 bool SceneBuilder::afford(SceneFields& fields, size_t objects) {
-  constexpr size_t kMost = 10'000'000;
+  constexpr size_t kMost = 4'000'000;
   objects_placed_ += objects;
   if (objects_placed_ <= kMost) return true;
   fields.fail("the scene describes too many things");
@@ -359,6 +360,8 @@ void SceneBuilder::area_light(SceneFields& fields) {
 }
 
 void SceneBuilder::environment(SceneFields& fields, Light& light, const SceneCall& call) {
+  constexpr size_t kMost = 4; // each has an image or a table of its own, and is looked at for every ray that ends
+  if (++environments_ > kMost) return fields.fail("a scene has at most " + std::to_string(kMost) + " environments");
   light.kind = LightKind::Environment;
   light.place = place(call);
   light.name = fields.text("name", "environment");
@@ -384,6 +387,8 @@ void SceneBuilder::light(SceneFields& fields, const SceneCall& call) {
     if (is_black(light.direction)) fields.fail("'direction' has no direction");
   } else if (type == 1) {
     light.kind = LightKind::Sky;
+    constexpr size_t kMost = 64; // each has a table of its own, and is looked at for every ray that ends
+    if (++skies_ > kMost) fields.fail("a scene has at most " + std::to_string(kMost) + " skies");
     bool plain = !fields.has("zenith") && !fields.has("horizon") && !fields.has("ground");
     light.zenith = fields.color("zenith", plain ? Vec3(1) : Vec3(0.18f, 0.32f, 0.65f)) * color * intensity;
     light.horizon = fields.color("horizon", plain ? Vec3(1) : Vec3(0.62f, 0.70f, 0.80f)) * color * intensity;

@@ -118,8 +118,10 @@ TEST_F(LuaScene, EndsEndlessAndHungryScenes) {
   std::string_view functions[] = {"sphere"};
   auto error = [&](const char* text) { return run_scene_file("s.lua", text, functions, {}, limits).error; };
   EXPECT_THAT(error("while true do end"), HasSubstr("s.lua:1: the scene runs too long"));
-  EXPECT_THAT(error("local t = {} for i = 1, 1e9 do t[i] = i end"), HasSubstr("not enough memory"));
-  EXPECT_THAT(error("local s = ('x'):rep(1e9)"), HasSubstr("not enough memory"));
+  EXPECT_THAT(error("local t = {} for i = 1, 1e9 do t[i] = i end"),
+              HasSubstr("s.lua:1: the scene takes more than 4 MiB while it is read (memory limit)"));
+  EXPECT_THAT(error("local s = ('x'):rep(1e9)"),
+              HasSubstr("s.lua:1: the scene takes more than 4 MiB while it is read (memory limit)"));
   limits.seconds = 0.05;
   for (const char* loop : {"local s = ('x'):rep(500000)", "table.sort(t)", "table.insert(t, 1, i)"})
     EXPECT_THAT(error(("local t = {} for i = 1, 50000 do t[i] = i % 7 end\nwhile true do\nlocal i = 1 " +
@@ -135,6 +137,40 @@ TEST_F(LuaScene, EndsEndlessAndHungryScenes) {
   EXPECT_THAT(error("for i = 1, 200 do sphere{} end"), HasSubstr("describes too many things"));
   EXPECT_THAT(error("local t = {} t.t = t sphere{ t }"), HasSubstr("nested too deeply"));
   EXPECT_THAT(error("error{}"), HasSubstr("s.lua: "));
+}
+
+TEST_F(LuaScene, BoundsWhatTheLibraryLoopsOver) {
+  for (const char* arguments : {"math.maxinteger", "math.maxinteger, ''"})
+    EXPECT_EQ(error("local s = (''):rep(" + std::string(arguments) + ") sphere{}"), "");
+  // A table with holes, whose length Lua takes to be 2^61.
+  const std::string holes = "local t = {} for i = 61, 0, -1 do t[1 << i] = 1 end ";
+  for (const char* call : {"table.insert(t, 1, 1)", "table.remove(t, 1)"})
+    EXPECT_EQ(error(holes + call), "s.lua:1: the table is too long, or has holes") << call;
+  EXPECT_EQ(
+      error("local t = {1, 2} table.insert(t, 3) table.insert(t, 1, 0) assert(table.remove(t, 1) == 0 and "
+            "table.remove(t) == 3 and #t == 2 and ('ab'):rep(2, '-') == 'ab-ab' and ('x'):rep(0) == '') sphere{}"),
+      "");
+  EXPECT_EQ(error("('x'):rep({})"), "s.lua:1: bad argument #1 to 'rep' (number expected, got table)");
+  EXPECT_EQ(error("table.insert({}, 5, 1)"), "s.lua:1: bad argument #2 to 'insert' (position out of bounds)");
+}
+
+TEST_F(LuaScene, BoundsSurroundings) {
+  EXPECT_EQ(error("sphere{} for i = 1, 64 do light{ type = 'sky' } end"), "");
+  EXPECT_EQ(error("sphere{} for i = 1, 65 do light{ type = 'sky' } end"),
+            "s.lua:1: light: a scene has at most 64 skies");
+}
+
+TEST_F(LuaScene, StatesRangesInFull) {
+  EXPECT_THAT(error("render{ samples = 0 }"), HasSubstr("'samples' lies between 1 and 16777216"));
+  EXPECT_THAT(error("render{ seed = -1 }"), HasSubstr("'seed' lies between 0 and 4294967295"));
+}
+
+TEST_F(LuaScene, PassesOverAByteOrderMarkAndAFirstLineForTheShell) {
+  EXPECT_EQ(error("\xEF\xBB\xBFsphere{}"), "");
+  EXPECT_EQ(error("#!/usr/bin/env moonrender\nsphere{}"), "");
+  EXPECT_EQ(error("\xEF\xBB\xBF#!/usr/bin/env moonrender\r\nspere{}"),
+            "s.lua:2: attempt to call a nil value (global 'spere'); did you mean 'sphere'?");
+  EXPECT_EQ(error("#"), "s.lua: the scene has no objects");
 }
 
 TEST_F(LuaScene, IsTheSameEveryTime) {

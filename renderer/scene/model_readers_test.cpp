@@ -121,6 +121,8 @@ TEST(Ply, NamesTheLineOfWhatIsWrong) {
   EXPECT_THAT(error(header("4000000000", "1") + kCorners), HasSubstr("vertex 4: the file ends too early"));
   EXPECT_THAT(error(header("1", "1", "", "binary_little_endian") + std::string(12, '\0') + "\xff"),
               HasSubstr("face 0: the file ends too early"));
+  EXPECT_EQ(error("ply\nformat ascii 1.0\nelement " + std::string(4000, 'x') + " 2\nproperty int a\nend_header\n1\n"),
+            "a.ply:6: " + std::string(40, 'x') + " 1: the file ends too early");
   EXPECT_EQ(error("ply\nformat ascii 1.0\nelement nothing 4000000000\nend_header\n"), "a.ply: has no faces"); // at once
 }
 
@@ -229,7 +231,10 @@ TEST(Gltf, RefusesWhatReachesBeyondTheFile) {
   EXPECT_THAT(indices(R"({"bufferView":0,"byteOffset":6,"componentType":5123,"count":6,"type":"SCALAR"})"),
               HasSubstr("mesh 0, primitive 0: the face names vertex 16256 of 4")); // floats as indices
   EXPECT_THAT(indices(R"({"bufferView":1,"componentType":5126,"count":3,"type":"SCALAR"})"),
-              HasSubstr("are no integers"));
+              HasSubstr("are no unsigned integers"));
+  for (const char* type : {"5120", "5122", "5124", "5130"}) // signed, and double
+    EXPECT_NE(indices(R"({"bufferView":1,"componentType":)" + std::string(type) + R"(,"count":1,"type":"SCALAR"})"),
+              "");
   EXPECT_THAT(error(gltf(R"([{"mesh":3}])", data_uri())), HasSubstr("the mesh of node 0 is missing"));
   EXPECT_THAT(error(gltf(R"([{"mesh":0,"children":[0]}])", data_uri())),
               HasSubstr("node 0 has two parents, or is its own"));
@@ -239,6 +244,22 @@ TEST(Gltf, RefusesWhatReachesBeyondTheFile) {
   EXPECT_THAT(error("{"), HasSubstr("a.gltf: "));
   EXPECT_THAT(error(""), HasSubstr("a.gltf: "));
   EXPECT_THAT(error(std::string(100000, '[')), HasSubstr("a.gltf: "));
+}
+
+TEST(Gltf, BoundsWhatSharedElementsComeTo) {
+  // A hundred primitives that read the same ten million zeros.
+  std::string primitives = R"({"attributes":{"POSITION":0},"indices":1})";
+  for (int k = 1; k < 100; ++k)
+    primitives += R"(,{"attributes":{"POSITION":0},"indices":1})";
+  const std::string text =
+      R"({"asset":{"version":"2.0"},"nodes":[{"mesh":0}],"meshes":[{"primitives":[)" + primitives +
+      R"(]}],"accessors":[{"componentType":5126,"count":9999999,"type":"VEC3","sparse":{"count":1,"indices":{"bufferView":1,"componentType":5123},"values":{"bufferView":0}}},)"
+      R"({"bufferView":1,"componentType":5123,"count":6,"type":"SCALAR"}],)"
+      R"("bufferViews":[{"buffer":0,"byteLength":48},{"buffer":0,"byteOffset":48,"byteLength":12}],)"
+      R"("buffers":[{"byteLength":60,"uri":")" +
+      data_uri() + R"("}]})";
+  EXPECT_EQ(parse_gltf("a.gltf", text, Folders()).error,
+            "a.gltf: mesh 0, primitive 3: the primitives come to too many elements for the size of the file");
 }
 
 TEST(Gltf, SurvivesDamage) {

@@ -44,7 +44,6 @@ private:
   bool numbers(std::istringstream& words, Vec3& v, bool allow_one);
   void color(Slot slot, std::istringstream& words);
   void scalar(const std::string& key, std::istringstream& words);
-  ResolvedPath resolve_image(const std::string& name) const;
   void image(const std::string& key, Slot slot, std::istringstream& words);
   void finish_material();
 
@@ -157,16 +156,6 @@ void MtlParser::scalar(const std::string& key, std::istringstream& words) {
     transparency_ = v.x;
 }
 
-/// Names from other people's machines ("C:\\models\\wood.png") lead nowhere; the image often came along, beside the
-/// file.
-ResolvedPath MtlParser::resolve_image(const std::string& name) const {
-  ResolvedPath resolved = folders_.resolve(folder_of(path_), name);
-  const size_t separator = name.find_last_of("/\\");
-  if (resolved.error.empty() || separator == std::string::npos) return resolved;
-  const ResolvedPath beside = folders_.resolve(folder_of(path_), name.substr(separator + 1));
-  return beside.error.empty() ? beside : resolved;
-}
-
 /// How many words follow an option of an image; of those of vectors one to three numbers.
 int words_of_option(const std::string& option) {
   static const std::map<std::string, int> kCounts = {
@@ -213,11 +202,11 @@ void MtlParser::image(const std::string& key, Slot slot, std::istringstream& wor
   words.clear(), words.seekg(name_at);
   image.name = rest(words);
   if (image.name.empty()) return warn("'" + key + "' names no image; ignored");
-  ResolvedPath resolved = resolve_image(image.name);
+  ResolvedPath resolved = folders_.resolve_or_beside(folder_of(path_), image.name);
   const size_t comment = image.name.find(" #");
   if (!resolved.error.empty() && comment != std::string::npos) {
     image.name = trimmed(image.name.substr(0, comment));
-    resolved = resolve_image(image.name);
+    resolved = folders_.resolve_or_beside(folder_of(path_), image.name);
   }
   if (!resolved.error.empty()) return warn("'" + key + "': " + resolved.error + "; drawn without this image");
   image.file = resolved.path;
@@ -234,9 +223,10 @@ void MtlParser::finish_material() {
   if (opacity_) value(Slot::Opacity) = Vec3(*opacity_);
   for (size_t s = 0; s < kSlotCount; ++s) {
     auto& constant = material().values[s];
-    if (!images[s]) continue;
+    std::optional<SlotImage>& image = images[s];
+    if (!image) continue;
     if (constant && is_black(*constant)) constant.reset();
-    images[s]->factor = constant.value_or(Vec3(1));
+    image->factor = constant.value_or(Vec3(1));
   }
   roughness_.reset(), opacity_.reset(), transparency_.reset();
 }

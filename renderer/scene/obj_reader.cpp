@@ -159,12 +159,13 @@ private:
   ObjReading reading_;
   Numbers number_state_ = Numbers::Good;
   std::map<std::string, Material> library_;
+  std::set<std::string> libraries_; ///< files that are read
   std::map<std::string, uint32_t> slots_;
   std::set<std::string> unknown_;
   std::string current_material_;
   uint32_t current_slot_ = Mesh::kNoIndex;
   uint32_t group_ = 0;
-  bool smoothing_stated_ = false;
+  bool smoothing_stated_ = false, has_free_forms_ = false;
   Smoothing smoothing_;
   size_t faces_ = 0, zero_area_ = 0, not_finite_ = 0, too_small_ = 0;
   // Of the face in hand.
@@ -197,6 +198,9 @@ bool ObjBuilder::feed(std::string& line) {
       load_materials(rest_of(line));
     } else if (word == "s") {
       smoothing(rest_of(line));
+    } else if ((word == "curv" || word == "curv2" || word == "surf") && !has_free_forms_) {
+      has_free_forms_ = true;
+      warn("free-form curves and surfaces are passed over");
     }
   }
   return false;
@@ -210,7 +214,7 @@ void ObjBuilder::smoothing(const std::string& group) {
 void ObjBuilder::load_materials(const std::string& files) {
   // The whole rest of the line is one name with blanks, or several names.
   std::vector<std::string> names;
-  if (folders_.resolve(folder_of(path_), files).error.empty()) {
+  if (folders_.resolve_or_beside(folder_of(path_), files).error.empty()) {
     names.push_back(files);
   } else {
     std::istringstream words(files);
@@ -218,11 +222,12 @@ void ObjBuilder::load_materials(const std::string& files) {
       names.push_back(word);
   }
   for (const std::string& name : names) {
-    ResolvedPath file = folders_.resolve(folder_of(path_), name);
+    ResolvedPath file = folders_.resolve_or_beside(folder_of(path_), name);
     if (!file.error.empty()) {
       warn(file.error + "; its materials are the default one");
       continue;
     }
+    if (!libraries_.insert(file.path).second) continue; // what is read twice gives nothing new
     MtlReading mtl = read_mtl(file.path, folders_);
     for (std::string& warning : mtl.warnings)
       reading_.warnings.push_back(std::move(warning));

@@ -45,6 +45,33 @@ TEST(ObjReader, ReadsEveryLineEnding) {
   }
 }
 
+TEST(ObjReader, ReadsAMaterialLibraryOnceAndFindsTheOneThatCameAlong) {
+  TemporaryFolder folder;
+  folder.write("m.mtl", "newmtl red\nKd 1 0 0\nmap_Bump dents.png\n");
+  const std::string path = folder / "m.obj";
+  for (const char* name : {"m.mtl", "C:\\models\\m.mtl", "/home/somebody/m.mtl", "sub/m.mtl"}) {
+    std::string text;
+    for (int k = 0; k < 1000; ++k)
+      text += "mtllib " + std::string(name) + "\n";
+    const ObjReading obj = parse_obj(path, text + kSquare + "usemtl red\nf 1 2 3 4\n", folder.folders());
+    ASSERT_TRUE(obj.mesh) << obj.error;
+    EXPECT_EQ(obj.warnings.size(), 1u) << name; // the bump map's
+    EXPECT_EQ(obj.materials[0].name, "red");
+  }
+  const ObjReading outside = parse_obj(path, "mtllib ../../none/n.mtl\n" + kSquare + "f 1 2 3 4\n", folder.folders());
+  ASSERT_EQ(outside.warnings.size(), 1u);
+  EXPECT_THAT(outside.warnings[0], HasSubstr("m.obj:1: '../../none/n.mtl' lies outside"));
+}
+
+TEST(ObjReader, PassesOverFreeFormsWithAWarning) {
+  const ObjReading obj =
+      parse(kSquare + "vp 0 0\ncstype bezier\ndeg 1 1\ncurv 0 1 1 2\nparm u 0 1\nsurf 0 1 0 1 1 2 3 4\nend\n"
+                      "l 1 2\np 1\nf 1 2 3 4\n");
+  ASSERT_TRUE(obj.mesh) << obj.error;
+  EXPECT_EQ(obj.mesh->triangles.size(), 2u);
+  EXPECT_EQ(obj.warnings, std::vector<std::string>{"m.obj:8: free-form curves and surfaces are passed over"});
+}
+
 TEST(ObjReader, FillsConcavePolygonsExactly) {
   // An L of area 3, in both orders.
   std::string corners = "v 0 0 0\nv 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\n";

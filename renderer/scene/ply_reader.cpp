@@ -79,7 +79,8 @@ private:
   bool in_header_ = true;
   Format format_ = Format::Ascii;
   std::vector<Element> elements_;
-  std::string now_; ///< "face 12", for messages
+  const Element* now_ = nullptr; ///< what is read, for messages: its kind and number
+  uint64_t now_number_ = 0;
   MeshBuilder mesh_;
   std::vector<std::vector<uint32_t>> early_faces_; ///< of a file that has them before its vertices
   bool have_vertices_ = false;
@@ -88,7 +89,9 @@ private:
 };
 
 bool PlyReader::fail(const std::string& message) {
-  error_ = path_ + place() + ": " + (now_.empty() ? "" : now_ + ": ") + message;
+  error_ = path_ + place() + ": ";
+  if (now_) error_ += now_->name.substr(0, 40) + " " + std::to_string(now_number_) + ": ";
+  error_ += message;
   return false;
 }
 
@@ -275,10 +278,10 @@ bool PlyReader::element(const Element& element) {
   bool is_vertex = element.name == "vertex", is_face = element.name == "face";
   for (uint64_t k = 0; k < element.count; ++k) {
     if (element.properties.empty()) break; // nothing to read, however many there are
-    now_ = element.name + " " + std::to_string(k);
+    now_ = &element, now_number_ = k;
     if (is_vertex ? !vertex(element) : !other(element, is_face)) return false;
   }
-  now_.clear();
+  now_ = nullptr;
   have_vertices_ |= is_vertex;
   return true;
 }

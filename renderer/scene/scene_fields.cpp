@@ -3,7 +3,9 @@
 
 #include "renderer/scene/nearest_name.h"
 
-#include <sstream>
+#include <array>
+#include <cstdio>
+#include <cstdlib>
 
 namespace moonshade::renderer {
 
@@ -41,9 +43,10 @@ static std::optional<double> as_number(const SceneValue& value) {
 }
 
 static std::string plain(double value) {
-  std::ostringstream text;
-  text << value;
-  return text.str();
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%g", value);
+  if (std::strtod(text.data(), nullptr) != value) std::snprintf(text.data(), text.size(), "%.10g", value);
+  return text.data();
 }
 
 double SceneFields::number(std::string_view name, std::optional<double> default_value) {

@@ -1,6 +1,7 @@
 #include "renderer/volumes/volume_set.h"
 
 #include "renderer/geometry/float_environment.h"
+#include "renderer/lights/endless.h"
 #include "renderer/sampling/sampler.h"
 
 namespace moonshade::renderer {
@@ -16,12 +17,14 @@ constexpr float kLeast = 4e-3f; ///< of the greatest control: none is zero where
 /// each; a fault counts as nothing here and is met again while rendering.
 class Meter {
 public:
-  Meter(const Scene& scene, const PlacedObject& placed, uint32_t id, const Vec3& low, const Vec3& cell, const int* size)
-      : placed_(placed), id_(id), low_(low), cell_(cell), size_(size),
+  /// `endless` counts over all meters.
+  Meter(const Scene& scene, const PlacedObject& placed, uint32_t id, const Vec3& low, const Vec3& cell, const int* size,
+        uint64_t& endless)
+      : placed_(placed), id_(id), low_(low), cell_(cell), size_(size), endless_(endless),
         batch_(kBatch, scene.settings.time, scene.settings.frame) {}
 
   template <typename Visit> void look(const EntryCall& entry, uint32_t each, Visit visit) {
-    for (size_t cell = 0; cell < cell_count(size_); ++cell)
+    for (size_t cell = 0; cell < cell_count(size_) && endless_ < kMostEndless; ++cell)
       for (uint32_t k = 0; k < each; ++k) {
         Sampler sampler(11, uint32_t(cell), k);
         Vec3 local = low_ + cell_ * (cell_corner(cell, size_) + Vec3(sampler.two(0), sampler.one(1)));
@@ -43,6 +46,9 @@ private:
       out[c] = batch_.results[c].data();
     FaultReport ignored;
     entry.run(batch_, 0, cells_.size(), EntryCall::inputs_of(batch_, 0), out, batch_.scratch_codes.data(), ignored);
+    endless_ +=
+        uint64_t(std::count(batch_.scratch_codes.begin(), batch_.scratch_codes.begin() + std::ptrdiff_t(cells_.size()),
+                            uint8_t(FaultCode::StepLimit)));
     for (size_t k = 0; k < cells_.size(); ++k)
       visit(cells_[k], Vec3(out[0][k], out[1][k], out[2][k]));
     cells_.clear();
@@ -52,6 +58,7 @@ private:
   uint32_t id_;
   Vec3 low_, cell_;
   const int* size_;
+  uint64_t& endless_;
   ShadingBatch batch_;
   std::vector<size_t> cells_;
 };
@@ -65,7 +72,7 @@ void divide(const Vec3& extent, int most, int* size) {
 
 /// Null where nothing glows.
 std::unique_ptr<GlowGrid> make_glow(const Scene& scene, const PlacedObject& placed, uint32_t id,
-                                    const VolumeCalls& calls, const Vec3& low, const Vec3& extent) {
+                                    const VolumeCalls& calls, const Vec3& low, const Vec3& extent, uint64_t& endless) {
   if (!calls.glows()) return nullptr;
   int size[3];
   divide(extent, GlowGrid::kCells, size);
@@ -74,7 +81,7 @@ std::unique_ptr<GlowGrid> make_glow(const Scene& scene, const PlacedObject& plac
   if (calls.emission) {
     std::vector<double> sums(count, 0.0);
     Vec3 cell(extent.x / float(size[0]), extent.y / float(size[1]), extent.z / float(size[2]));
-    Meter meter(scene, placed, id, low, cell, size);
+    Meter meter(scene, placed, id, low, cell, size, endless);
     meter.look(*calls.emission, kEachGlow, [&](size_t at, const Vec3& emission) {
       sums[at] += double(std::max(luminance(glm::max(emission, Vec3(0))), 0.0f));
     });
@@ -100,7 +107,7 @@ std::unique_ptr<GlowGrid> make_glow(const Scene& scene, const PlacedObject& plac
 }
 
 std::unique_ptr<Volume> make_volume(const Scene& scene, const PlacedObject& placed, uint32_t id,
-                                    const CompiledMaterial& material) {
+                                    const VolumeCalls& calls, uint64_t& endless) {
   auto volume = std::make_unique<Volume>();
   Box box;
   if (placed.object->shape == Shape::Sphere) {
@@ -117,16 +124,15 @@ std::unique_ptr<Volume> make_volume(const Scene& scene, const PlacedObject& plac
     volume->cell[c] = extent[c] / float(volume->size[c]);
   volume->low = box.low;
   const int* n = volume->size;
-  std::vector<float> greatest(cell_count(n), material.volume->density_constant);
-  if (material.volume->density)
-    Meter(scene, placed, id, volume->low, volume->cell, n)
-        .look(*material.volume->density, kEach,
+  std::vector<float> greatest(cell_count(n), calls.density_constant);
+  if (calls.density)
+    Meter(scene, placed, id, volume->low, volume->cell, n, endless)
+        .look(*calls.density, kEach,
               [&](size_t cell, const Vec3& result) { greatest[cell] = std::max(greatest[cell], result.x); });
   // The neighbours' too: maxima lie between the points.
   float all = *std::max_element(greatest.begin(), greatest.end());
-  float least = material.volume->glows()
-                    ? std::max(all * kLeast, 16 / max_component(extent)) // glow is found where light collides
-                    : all * kLeast;
+  float least = calls.glows() ? std::max(all * kLeast, 16 / max_component(extent)) // glow is found where light collides
+                              : all * kLeast;
   volume->controls.resize(greatest.size());
   for (int z = 0; z < n[2]; ++z)
     for (int y = 0; y < n[1]; ++y)
@@ -140,7 +146,7 @@ std::unique_ptr<Volume> make_volume(const Scene& scene, const PlacedObject& plac
         const int here[] = {x, y, z};
         volume->controls[cell_index(here, n)] = std::max(Volume::kSafety * most, least);
       }
-  volume->glow = make_glow(scene, placed, id, *material.volume, box.low, extent);
+  volume->glow = make_glow(scene, placed, id, calls, box.low, extent, endless);
   return volume;
 }
 
@@ -149,9 +155,9 @@ std::unique_ptr<Volume> make_volume(const Scene& scene, const PlacedObject& plac
 void fill_volume_inputs(ShadingBatch& batch, size_t k, const Vec3& local, const Vec3& world, const Vec3& direction,
                         float footprint, uint32_t object) {
   for (int c = 0; c < 3; ++c) {
-    batch.inputs[size_t(kLocal + c)][k] = local[c];
-    batch.inputs[size_t(kWorld + c)][k] = world[c];
-    batch.inputs[size_t(kIncident + c)][k] = direction[c];
+    batch.inputs[size_t(kLocal) + size_t(c)][k] = local[c];
+    batch.inputs[size_t(kWorld) + size_t(c)][k] = world[c];
+    batch.inputs[size_t(kIncident) + size_t(c)][k] = direction[c];
   }
   batch.inputs[kFootprint][k] = footprint;
   batch.id[k] = int64_t(object);
@@ -192,11 +198,12 @@ void VolumeSet::multiply_controls(float factor) {
 VolumeSet::VolumeSet(const Scene& scene, const Geometry& geometry, const MaterialSet& materials)
     : volumes_(scene.objects.size()) {
   DefaultFloatEnvironment environment;
+  uint64_t endless = 0;
   for (uint32_t id = 0; id < volumes_.size(); ++id) {
     const PlacedObject& placed = geometry.objects()[id];
     const CompiledMaterial& material = materials[placed.object->materials[0]];
     if (!material.volume) continue;
-    volumes_[id] = make_volume(scene, placed, id, material);
+    volumes_[id] = make_volume(scene, placed, id, *material.volume, endless);
     any_ = true;
   }
 }

@@ -3,13 +3,15 @@
 #include "renderer/test_support.h"
 #include "renderer/volumes/volume_controls.h"
 
-#include <gtest/gtest.h>
+#include <atomic>
+#include <gmock/gmock.h>
 
 namespace moonshade::renderer {
 namespace {
 
 using testing::CppShader;
 using testing::FixedShaders;
+using ::testing::HasSubstr;
 using testing::TemporaryFolder;
 
 /// The mean of a small picture; controls are multiplied before.
@@ -212,6 +214,13 @@ TEST(Glow, FadesOnItsWayAndIsScatteredOnce) {
   EXPECT_NEAR(mean_of(scene).y, path, 0.03f * path);
 }
 
+/// Path tracing and photons see the same light, each with its number of samples, at which `scene` ends.
+void expect_same_for_photons(const std::string& scene, const char* of_path, const char* of_photons) {
+  const float path = mean_of(scene + of_path + ", integrator = 'path' }").x;
+  const float sppm = mean_of(scene + of_photons + ", integrator = 'sppm' }").x;
+  EXPECT_NEAR(sppm, path, 0.03f * path);
+}
+
 TEST(Glow, InARoomIsTheSameForPathsAndPhotons) {
   // Light that has bounced off a wall, and a mirror that shows the flame and what it lights.
   std::string scene =
@@ -220,9 +229,7 @@ TEST(Glow, InARoomIsTheSameForPathsAndPhotons) {
       "0.5, 0.4}, ior = 1 } } box{ center = {0.8, 0.5, 0}, size = 0.8, material = material{ color = 0.5, density = 1, "
       "emission = 2 } } sphere{ center = {-0.8, 0.5, 0.2}, radius = 0.5, material = material{ name = 'ball', color = "
       "0.9, metallic = 1, roughness = 0.1 } } render{ width = 24, height = 16, depth = 6, photons = 20000, samples = ";
-  float path = mean_of(scene + "400, integrator = 'path' }").x;
-  float sppm = mean_of(scene + "64, integrator = 'sppm' }").x;
-  EXPECT_NEAR(sppm, path, 0.03f * path);
+  expect_same_for_photons(scene, "400", "64");
 }
 
 TEST(Controls, AreRaisedBetweenPassesByWhatIsGreatest) {
@@ -316,6 +323,23 @@ TEST(Volumes, FaultsEndPathsInTheDark) {
     EXPECT_TRUE(is_finite(p) && p.y <= 1 && p.x == p.y); // no magenta
 }
 
+TEST(Volumes, OfShadersThatDoNotEndAreNotMeasuredForLong) {
+  std::atomic<int> points = 0;
+  auto s = std::make_shared<CppShader>();
+  s->add("density", {}, ValueType::Number, [&](const double*, double*) { return ++points, FaultCode::StepLimit; });
+  const std::string scene =
+      "for x = 1, 9 do box{ center = {x, 0, 0}, material = material{ density = 'fake.lua' } } end "
+      "render{ width = 1, height = 1, samples = 1 }";
+  EXPECT_EQ(testing::render_text(scene, s).error, "");
+  EXPECT_LT(points, 20000);
+}
+
+TEST(Volumes, AreBoundedInNumber) {
+  const std::string scene =
+      "local m = material{ density = 1 } for x = 1, 1001 do sphere{ center = {x, 0, 0}, material = m } end";
+  EXPECT_THAT(testing::render_text(scene).error, HasSubstr("more than 1000 objects are volumes"));
+}
+
 TEST(Volumes, PhotonsPassThem) {
   // A diffuse floor under a scattering box: both integrators see the same light.
   std::string scene =
@@ -323,9 +347,7 @@ TEST(Volumes, PhotonsPassThem) {
       "'floor', color = 0.7, ior = 1 } } box{ center = {0, 1, 0}, size = 0.8, material = material{ color "
       "= 0.9, density = 3 } } light{ type = 'sun', direction = {0.3, 1, 0.4}, color = 3 } render{ width = "
       "24, height = 16, depth = 8, photons = 20000, samples = ";
-  float path = mean_of(scene + "256, integrator = 'path' }").x;
-  float sppm = mean_of(scene + "48, integrator = 'sppm' }").x;
-  EXPECT_NEAR(sppm, path, 0.03f * path);
+  expect_same_for_photons(scene, "256", "48");
 }
 
 } // namespace

@@ -14,6 +14,8 @@
 #include <mutex>
 #include <utility>
 
+#include <unistd.h>
+
 namespace moonshade {
 
 namespace {
@@ -87,7 +89,9 @@ public:
     cache_->add_file(name, make_input, &config, true);
     return name;
   }
-  void remove(OIIO::ustring name) { cache_->invalidate(name, true); }
+  void remove(const OIIO::ustring& name) { cache_->invalidate(name, true); }
+
+  std::atomic<uint64_t> bytes_in_use = 0; ///< by pyramids
 
 private:
   OIIO::ImageCache* cache_;
@@ -101,8 +105,13 @@ public:
   FileImage(std::shared_ptr<Textures> textures, std::unique_ptr<Pyramid> pyramid,
             std::shared_ptr<const std::string> source = nullptr)
       : textures_(std::move(textures)), pyramid_(std::move(pyramid)), source_(std::move(source)),
-        name_(textures_->add(pyramid_.get())), handle_(textures_->system().get_texture_handle(name_)) {}
-  ~FileImage() override { textures_->remove(name_); }
+        name_(textures_->add(pyramid_.get())), handle_(textures_->system().get_texture_handle(name_)) {
+    textures_->bytes_in_use += pyramid_->bytes();
+  }
+  ~FileImage() override {
+    textures_->bytes_in_use -= pyramid_->bytes();
+    textures_->remove(name_);
+  }
 
   bool is_good() const { return textures_->system().good(handle_); }
   std::string error() const { return textures_->system().geterror(); }
@@ -151,12 +160,14 @@ private:
 /// The files that are open: one that several shaders look up is read once.
 class Files {
 public:
+  explicit Files(uint64_t most_bytes) : most_bytes_(most_bytes) {}
+
   OpenedImage open(const std::string& path, bool raw) {
     const std::lock_guard lock(mutex_);
     std::weak_ptr<const FileImage>& known = open_[{path, raw}];
     if (auto image = known.lock()) return {std::move(image), "", path};
     auto pyramid = std::make_unique<Pyramid>();
-    if (std::string error = pyramid->read(path, raw); !error.empty()) return {nullptr, error};
+    if (std::string error = pyramid->read(path, raw, bytes_left()); !error.empty()) return {nullptr, error};
     return show(std::move(pyramid), nullptr, known, path);
   }
 
@@ -166,11 +177,13 @@ public:
     std::weak_ptr<const FileImage>& known = decoded_[{bytes.get(), raw}];
     if (auto image = known.lock()) return {std::move(image), ""};
     auto pyramid = std::make_unique<Pyramid>();
-    if (std::string error = pyramid->decode(*bytes, raw); !error.empty()) return {nullptr, error};
+    if (std::string error = pyramid->decode(*bytes, raw, bytes_left()); !error.empty()) return {nullptr, error};
     return show(std::move(pyramid), bytes, known, "");
   }
 
 private:
+  uint64_t bytes_left() const { return most_bytes_ - std::min<uint64_t>(most_bytes_, textures_->bytes_in_use); }
+
   OpenedImage show(std::unique_ptr<Pyramid> pyramid, std::shared_ptr<const std::string> source,
                    std::weak_ptr<const FileImage>& known, const std::string& path) {
     auto image = std::make_shared<const FileImage>(textures_, std::move(pyramid), std::move(source));
@@ -179,20 +192,28 @@ private:
     return {std::move(image), "", path};
   }
 
+  const uint64_t most_bytes_;
   std::shared_ptr<Textures> textures_ = std::make_shared<Textures>();
   std::mutex mutex_;
   std::map<std::pair<std::string, bool>, std::weak_ptr<const FileImage>> open_;
   std::map<std::pair<const std::string*, bool>, std::weak_ptr<const FileImage>> decoded_;
 };
 
+uint64_t half_of_the_memory() {
+  return static_cast<uint64_t>(::sysconf(_SC_PHYS_PAGES)) * static_cast<uint64_t>(::sysconf(_SC_PAGESIZE)) / 2;
+}
+
 } // namespace
 
 struct ImageStore::State {
   AllowedFolders folders;
-  Files files = {};
+  Files files;
+
+  State(AllowedFolders allowed, uint64_t most_bytes) : folders(std::move(allowed)), files(most_bytes) {}
 };
 
-ImageStore::ImageStore(AllowedFolders folders) : state_(new State{std::move(folders)}) {}
+ImageStore::ImageStore(AllowedFolders folders, uint64_t most_bytes)
+    : state_(std::make_shared<State>(std::move(folders), most_bytes != 0 ? most_bytes : half_of_the_memory())) {}
 
 OpenedImage ImageStore::open(const std::string& file, const std::string& from, bool raw) const {
   const ResolvedPath resolved = state_->folders.resolve(folder_of(from), file);

@@ -19,7 +19,8 @@ ImageOpener file_images(AllowedFolders folders);
 /// Any number of threads may open images at once.
 class ImageStore {
 public:
-  explicit ImageStore(AllowedFolders folders);
+  /// Images that are in use at once take at most `most_bytes` of memory; 0: half of what the machine has.
+  explicit ImageStore(AllowedFolders folders, uint64_t most_bytes = 0);
   /// As an ImageOpener.
   OpenedImage open(const std::string& file, const std::string& from, bool raw) const;
   /// The bytes of a PNG or JPEG file.

@@ -247,6 +247,20 @@ TEST_F(FileImages, RefuseWhatIsTooLarge) {
   EXPECT_THAT(error_of("wide.hdr"), HasSubstr("its size"));
 }
 
+/// Files of some bytes may claim hundreds of megabytes each.
+TEST_F(FileImages, AreBoundedTogether) {
+  write("a.png", 64, 64, 3, std::vector<float>(size_t(3) * 64 * 64, 0.5f));
+  const auto bytes = std::make_shared<const std::string>(bytes_of("a.png"));
+  const auto more = std::make_shared<const std::string>(*bytes);
+  const ImageStore store(AllowedFolders(), 60'000); // one takes 12 kB, and 21 kB for its levels
+  OpenedImage first = store.decode(bytes, false);
+  ASSERT_NE(first.image, nullptr) << first.error;
+  EXPECT_EQ(store.decode(bytes, false).image, first.image);
+  EXPECT_EQ(store.decode(more, false).error, "it takes too much memory beside the other images");
+  first = {};
+  EXPECT_EQ(store.decode(more, false).error, "");
+}
+
 TEST_F(FileImages, OutliveTheirFiles) {
   write("gone.png", 2, 2, 1, {0, 1, 1, 0});
   const OpenedImage image = open("gone.png");

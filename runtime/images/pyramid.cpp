@@ -75,19 +75,20 @@ double srgb_decoded(double x) { return x <= 0.04045 ? x / 12.92 : std::pow((x + 
 
 } // namespace
 
-std::string Pyramid::read(const std::string& path, bool raw) {
+std::string Pyramid::read(const std::string& path, bool raw, uint64_t most_bytes) {
   const char* reader = reader_of(path);
   if (reader == nullptr) return "its name ends as no image that is read (png, jpg, exr, tif, hdr, tga, bmp)";
-  return read_with(reader, path, nullptr, raw);
+  return read_with(reader, path, nullptr, raw, most_bytes);
 }
 
-std::string Pyramid::decode(const std::string& bytes, bool raw) {
+std::string Pyramid::decode(const std::string& bytes, bool raw, uint64_t most_bytes) {
   const char* reader = bytes.starts_with("\x89PNG") ? "png" : bytes.starts_with("\xFF\xD8") ? "jpeg" : nullptr;
   if (reader == nullptr) return "it is neither a PNG nor a JPEG";
-  return read_with(reader, std::string("memory.") + reader, &bytes, raw);
+  return read_with(reader, std::string("memory.") + reader, &bytes, raw, most_bytes);
 }
 
-std::string Pyramid::read_with(const char* reader, const std::string& path, const std::string* bytes, bool raw) {
+std::string Pyramid::read_with(const char* reader, const std::string& path, const std::string* bytes, bool raw,
+                               uint64_t most_bytes) {
   OIIO::Filesystem::IOMemReader memory(bytes != nullptr ? bytes->data() : nullptr,
                                        bytes != nullptr ? bytes->size() : 0);
   const auto input = OIIO::ImageInput::create(reader);
@@ -101,6 +102,10 @@ std::string Pyramid::read_with(const char* reader, const std::string& path, cons
   channels_ = std::min(spec.nchannels, 4);
   const size_t count = size_t(spec.width) * size_t(spec.height) * size_t(channels_);
   const bool is_bytes = spec.format == OIIO::TypeUInt8;
+  // The coarser levels come to a third of the texels.
+  memory_ = count * (is_bytes ? sizeof(uint8_t) : sizeof(float)) +
+            uint64_t(spec.width) * uint64_t(spec.height) / 3 * sizeof(Texel);
+  if (memory_ > most_bytes) return "it takes too much memory beside the other images";
   bool done = false;
   if (is_bytes) {
     bytes_.resize(count);

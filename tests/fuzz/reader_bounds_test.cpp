@@ -3,6 +3,7 @@
 #include "renderer/scene/lua_scene.h"
 #include "renderer/scene/mtl_reader.h"
 #include "renderer/scene/obj_reader.h"
+#include "renderer/scene/ply_reader.h"
 #include "tests/fuzz/measure.h"
 
 #include <cmath>
@@ -92,6 +93,20 @@ TEST(ReaderBounds, ManyMaterialLibrariesOnALine) {
   for (size_t i = 0; i < 100'000; ++i)
     text += " m" + std::to_string(i);
   expect_obj(text + "\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+}
+
+TEST(ReaderBounds, APlyOfManyElementsOfALongName) {
+  std::string text = "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty char x\nproperty char y\n"
+                     "property char z\nelement face 1\nproperty list uchar uchar vertex_indices\nelement " +
+                     std::string(4000, 'x') + " 20000000\nproperty uchar a\nend_header\n";
+  for (const char byte : {0, 0, 0, 1, 0, 0, 0, 1, 0, 3, 0, 1, 2})
+    text += byte;
+  text.append(20'000'000, '\0');
+  const Measure measure;
+  const Model ply = parse_ply("hostile.ply", text);
+  EXPECT_EQ(ply.error, "");
+  EXPECT_LT(measure.seconds(), 4) << "the name is copied for every element";
+  expect_bounded(measure, text.size(), "a mesh");
 }
 
 TEST(ReaderBounds, ManyMaterials) {

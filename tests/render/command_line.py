@@ -52,6 +52,11 @@ with tempfile.TemporaryDirectory() as folder:
     check(run("--help-scene", output="## camera").stdout == open(reference).read(),
           "docs/scene-reference.md is not what `moonrender --help-scene` prints")
 
+    with open("/dev/full", "w") as full:
+        for option in ("--help", "--version", "--help-scene"):
+            done = subprocess.run([moonrender, option], stdout=full, stderr=subprocess.PIPE, text=True)
+            check(done.returncode == 3 and "cannot write to standard output" in done.stderr, f"{option} to a full disk")
+
     # Calls at fault.
     run(status=2, error="no scene")
     run(bumpy, status=2, error="no output")
@@ -76,6 +81,13 @@ with tempfile.TemporaryDirectory() as folder:
     run(os.path.join(scenes, "none.lua"), "-o", image, status=1, error="none.lua: error: No such file")
     run(os.path.join(scenes, "broken.scene.lua"), "-o", image, status=1, error="broken.lua:2:")
     run(bumpy, "-o", image, "-D", "bumpy.scale=100", status=1, error="scale")
+    control = os.path.join(folder, "control.lua")
+    with open(control, "w") as file:
+        file.write("print('a', '\\27]0;title\\7') error('first\\nsecond\\27[31m' .. ('x'):rep(100000))\n")
+    said = run(control, "-o", image, status=1, error="control.lua:1: error: first\\x0Asecond\\x1B[31mxxx").stderr
+    check(f"{control}: warning: print: a\t\\x1B]0;title\\x07\n" in said, f"printed: {said[:200]}")
+    check(len(said) < 10000, "an error of 100,000 characters is shown in whole")
+    os.remove(control)
     far = os.path.join(folder, "far.lua")
     with open(far, "w") as file:
         file.write("sphere{ radius = 1e8, scale = 1e9 }\n")
@@ -161,6 +173,20 @@ with tempfile.TemporaryDirectory() as folder:
     check(process.returncode == 130, f"interrupted: exit {process.returncode}")
     check("interrupted; the image has" in message, f"interrupted: {message}")
     check(b"interrupted yes" in bytes_of(image), "the metadata do not say interrupted")
+    check(sorted(os.listdir(folder)) == ["a.exr", "a.jpg", "a.png", "stats.json"], f"files: {os.listdir(folder)}")
+
+    # While the scene is read there is nothing to save: the first signal ends the program.
+    pipe = os.path.join(folder, "pipe.lua")
+    os.mkfifo(pipe)
+    for number in (signal.SIGINT, signal.SIGTERM):
+        process = subprocess.Popen([moonrender, pipe, "-o", image], stderr=subprocess.PIPE, text=True)
+        with open(pipe, "w") as writer:  # opened when it is being read
+            writer.write("sphere{}\n")
+            writer.flush()
+            process.send_signal(number)
+            message = process.communicate(timeout=60)[1]
+        check(process.returncode == 130, f"signal {number} while reading: exit {process.returncode}: {message}")
+    os.remove(pipe)
     check(sorted(os.listdir(folder)) == ["a.exr", "a.jpg", "a.png", "stats.json"], f"files: {os.listdir(folder)}")
 
 print("ok" if failures == 0 else f"{failures} failures")

@@ -1,5 +1,6 @@
 # What the programs print and how they end: RUN lines and FileCheck.
 import os
+import sys
 
 import lit.formats
 
@@ -21,5 +22,6 @@ config.substitutions += [
     ("%inputs", os.path.join(config.test_source_root, "inputs")),
     ("%shaders", os.path.join(source_folder, "shaders")),
     ("%status", os.path.join(config.test_source_root, "status.sh")),
+    ("%python", sys.executable),
     ("FileCheck", lit_config.params["filecheck"]),
 ]

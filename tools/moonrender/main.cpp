@@ -18,7 +18,6 @@ int run(const Options& options) {
   auto picture = [&](std::optional<int64_t> frame) {
     renderer::RenderProgress progress;
     session.progress = &progress;
-    tools::cancel_on_interrupt(&progress.cancel);
     int status = render_picture(options, frame, session);
     tools::cancel_on_interrupt(nullptr);
     return status;
@@ -44,5 +43,7 @@ int main(int argc, char** argv) {
     return moonrender::run(*parsed.options);
   } catch (const std::bad_alloc&) {
     return moonrender::fail(tools::kMachineAtFault, "moonrender: error: not enough memory");
+  } catch (const std::exception& error) {
+    return moonrender::fail(tools::kMachineAtFault, std::string("moonrender: internal error: ") + error.what());
   }
 }

@@ -9,6 +9,7 @@
 #include "tools/support/arguments.h"
 #include "tools/support/cache_options.h"
 #include "tools/support/exit_status.h"
+#include "tools/support/files.h"
 
 #include <charconv>
 #include <iostream>
@@ -268,7 +269,10 @@ ParsedOptions parse_options(int argc, char** argv) {
     check(options);
   });
   if (const auto status = tools::parse_arguments(app, argc, argv, "moonrender")) return {std::nullopt, *status};
-  if (help_scene) return std::cout << renderer::scene_reference(), ParsedOptions{};
+  if (help_scene) {
+    std::cout << renderer::scene_reference();
+    return {std::nullopt, tools::finish_output("moonrender")};
+  }
   return {options, tools::kDone};
 }
 

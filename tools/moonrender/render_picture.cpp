@@ -4,6 +4,7 @@
 #include "renderer/checkpoint/checkpoint_file.h"
 #include "renderer/film/image_file.h"
 #include "renderer/scene/read_scene.h"
+#include "tools/moonrender/messages.h"
 #include "tools/moonrender/progress.h"
 #include "tools/moonrender/stats.h"
 #include "tools/support/exit_status.h"
@@ -21,30 +22,23 @@ using namespace tools;
 
 namespace {
 
-/// "FILE:LINE: message" as "FILE:LINE: error: message"; what the compiler has worded stays.
-std::string of_kind(const std::string& kind, const std::string& message) {
-  size_t colon = message.find(": ");
-  if (colon == std::string::npos || message.find(": error: ") != std::string::npos) return message;
-  std::string text = message.substr(0, colon);
-  return text.append(": ").append(kind).append(message.substr(colon));
-}
-
 void warn(const std::string& message) { std::cerr << "moonrender: warning: " << message << "\n"; }
 
 void list_faults(const renderer::RenderResult& result) {
   if (result.faults.empty()) return;
   std::cerr << "moonrender: " << result.fault_count
             << " points without a value (magenta where the camera sees them):\n";
-  size_t shown = 0;
+  size_t listed = 0;
   for (const auto& [key, count] : result.faults) {
-    if (++shown > 20) {
+    if (++listed > 20) {
       std::cerr << "  and " << result.faults.size() - 20 << " more places\n";
       break;
     }
     const char* kind = key.code == renderer::kNotFinite ? "not finite" : fault_name(FaultCode(key.code));
-    if (!key.file.empty()) std::cerr << key.file << (key.line ? ":" + std::to_string(key.line) : "") << ": ";
-    std::cerr << "fault: " << kind << " in '" << key.entry << "'" << (key.message.empty() ? "" : ": " + key.message)
-              << ", " << count << (count == 1 ? " point\n" : " points\n");
+    if (!key.file.empty()) std::cerr << shown(key.file) << (key.line ? ":" + std::to_string(key.line) : "") << ": ";
+    std::cerr << "fault: " << kind << " in '" << key.entry << "'"
+              << (key.message.empty() ? "" : ": " + shown(key.message)) << ", " << count
+              << (count == 1 ? " point\n" : " points\n");
   }
 }
 
@@ -117,8 +111,8 @@ int PictureJob::read() {
   if (frame_ && options_.frames) animation.time = options_.frames->time_of(*frame_);
   renderer::SceneReading reading = renderer::read_scene(options_.scene, animation);
   for (const std::string& warning : reading.warnings)
-    std::cerr << of_kind("warning", warning) << "\n";
-  if (!reading.scene) return fail(kInputAtFault, of_kind("error", reading.error));
+    std::cerr << shown(of_kind("warning", warning)) << "\n";
+  if (!reading.scene) return fail(kInputAtFault, shown(of_kind("error", reading.error)));
   scene_ = std::move(*reading.scene);
   if (std::string error = apply(options_, scene_.settings); !error.empty())
     return fail(kCallAtFault, "moonrender: error: " + error);
@@ -133,7 +127,7 @@ int PictureJob::read() {
 int PictureJob::prepare() {
   renderer::RecordingShaders recording(*session_.shaders);
   renderer::Preparation preparation = renderer::prepare(std::move(scene_), recording, options_.overrides);
-  std::cerr << preparation.warnings;
+  std::cerr << shown_lines(preparation.warnings);
   if (!preparation.prepared)
     return fail(preparation.machine_at_fault ? kMachineAtFault : kInputAtFault, of_kind("error", preparation.error));
   prepared_ = std::move(preparation.prepared);
@@ -175,6 +169,7 @@ void PictureJob::render() {
   render_options.after_pass = [&](renderer::RenderState& state, bool ended) { after_pass(state, ended); };
   session_.live.begin(output_, {settings().exposure, settings().tonemap}, metadata());
   last_checkpoint_ = std::chrono::steady_clock::now();
+  cancel_on_interrupt(&session_.progress->cancel); // until here an interrupt ends the program: there is nothing to save
   std::string what = frame_ ? "frame " + std::to_string(*frame_) + ": " : "";
   ProgressDisplay display(*session_.progress, settings().samples, options_.render.seconds, what);
   result_ = renderer::render(*prepared_, render_options, *session_.progress);
@@ -267,7 +262,7 @@ int PictureJob::run() {
 
 int fail(int status, const std::string& message) {
   // Messages that name a place of a file begin with it, as compilers' do.
-  std::cerr << message << (message.ends_with('\n') ? "" : "\n");
+  std::cerr << shown_lines(message);
   return status;
 }
 

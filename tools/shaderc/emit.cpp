@@ -26,11 +26,16 @@ int write_output(const Options& options, const std::string& bytes) {
 int emit_luals(const Options& options) { return write_output(options, sema::luals_definitions()); }
 
 int emit_stage(const CheckedShader& shader, const Options& options) {
-  if (!shader.ok() && *options.emit != Stage::Ast) return tools::kInputAtFault;
+  const Stage stage = options.emit.value_or(Stage::Ast);
+  if (!shader.ok() && stage != Stage::Ast) return tools::kInputAtFault;
   CompileOptions compile_options = options.compile;
   if (options.compile.bake)
     if (const auto status = read_parameters(shader.info(), options, compile_options.baked)) return *status;
-  const Emission emission = emit(shader, *options.emit, compile_options, options.prefix);
+  const Emission emission = emit(shader, stage, compile_options, options.prefix);
+  if (emission.is_too_large) {
+    std::cerr << emission.error;
+    return tools::kInputAtFault;
+  }
   if (!emission.error.empty()) return call_error(emission.error);
   if (options.time_report) print_times(options.files[0], emission.times);
   if (const int status = write_output(options, emission.bytes); status != tools::kDone) return status;

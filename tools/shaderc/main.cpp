@@ -4,6 +4,7 @@
 #include "tools/shaderc/describe.h"
 #include "tools/shaderc/options.h"
 #include "tools/support/exit_status.h"
+#include "tools/support/files.h"
 #include "tools/support/interrupt.h"
 
 #include <algorithm>
@@ -66,9 +67,7 @@ int main(int argc, char** argv) {
     const ParsedOptions parsed = parse_options(argc, argv);
     if (!parsed.options) return parsed.exit_status;
     const int status = work(*parsed.options);
-    std::cout.flush();
-    if (std::cout) return status;
-    std::cerr << "shaderc: error: cannot write to standard output\n";
+    if (tools::finish_output("shaderc") == tools::kDone) return status;
   } catch (const std::exception& error) {
     std::cerr << "shaderc: internal error: " << error.what() << "\n";
   }

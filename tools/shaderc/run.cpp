@@ -71,6 +71,10 @@ Ending instantiate(const CheckedShader& checked, const Options& options, std::sh
     compile_options.images = images;
     if (options.compile.bake) compile_options.baked = std::exchange(parameters, {});
     const Compilation compilation = compile(checked, compile_options);
+    if (compilation.is_too_large) {
+      std::cerr << compilation.diagnostics;
+      return kInputAtFault;
+    }
     if (!compilation.program) return machine_error("the checked shader cannot be compiled\n" + compilation.diagnostics);
     if (options.time_report) print_times(options.files[0], compilation.program->times());
     instance = compilation.program->instantiate(parameters);

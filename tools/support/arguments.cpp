@@ -2,6 +2,7 @@
 #include "tools/support/arguments.h"
 
 #include "tools/support/exit_status.h"
+#include "tools/support/files.h"
 
 #include <iostream>
 
@@ -12,10 +13,10 @@ std::optional<int> parse_arguments(CLI::App& app, int argc, char** argv, const c
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
     std::cout << app.help();
-    return kDone;
+    return finish_output(program);
   } catch (const CLI::CallForVersion& call) {
     std::cout << call.what() << "\n";
-    return kDone;
+    return finish_output(program);
   } catch (const CLI::ParseError& error) {
     std::cerr << program << ": error: " << error.what() << "\nTry '" << program << " --help'.\n";
     return kCallAtFault;

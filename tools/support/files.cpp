@@ -1,6 +1,7 @@
 // Files read and written whole; on POSIX calls, because a rename must follow a complete and checked write.
 #include "tools/support/files.h"
 
+#include "tools/support/exit_status.h"
 #include "tools/support/interrupt.h"
 
 #include <cerrno>
@@ -8,6 +9,7 @@
 #include <cstring>
 #include <fcntl.h>
 #include <filesystem>
+#include <iostream>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -81,6 +83,13 @@ std::string write_file(const std::string& path, const std::string& bytes) {
   if (!error.empty()) unlink(temporary.c_str());
   set_file_to_delete(nullptr);
   return error;
+}
+
+int finish_output(const char* program) {
+  std::cout.flush();
+  if (std::cout) return kDone;
+  std::cerr << program << ": error: cannot write to standard output\n";
+  return kMachineAtFault;
 }
 
 ModuleReader modules_of(const std::string& shader, const std::vector<std::string>& folders) {

@@ -19,6 +19,9 @@ FileText read_file(const std::string& path);
 /// output. Gives the error, or an empty text.
 std::string write_file(const std::string& path, const std::string& bytes);
 
+/// The status to exit with when all is printed: whether it has reached standard output. Says so if not.
+int finish_output(const char* program);
+
 /// Where a shader's modules are looked for: in its own folder, then in these.
 ModuleReader modules_of(const std::string& shader, const std::vector<std::string>& folders = {});
 
