@@ -17,7 +17,8 @@ namespace {
 constexpr uint64_t kLongFunction = 150;
 /// Two of them and the code around, or less: short.
 constexpr uint64_t kShort = 400;
-/// One with its derivatives: they take all registers (97 against 82 million gradients of four octaves of noise a second).
+/// One with its derivatives: they take all registers (97 against 82 million gradients of four octaves of noise a
+/// second).
 constexpr uint64_t kLongDerivative = kShort + 1;
 
 bool is_formula(const LibraryFunction& row) {
