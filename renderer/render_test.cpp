@@ -214,7 +214,7 @@ TEST(Cracks, DoNotShowInClosedMeshes) {
       ball += "f " + std::to_string(a) + " " + std::to_string(b) + " " + std::to_string(b + kSides) + " " +
               std::to_string(a + kSides) + "\n";
     }
-  std::string file = folder.write("ball.obj", ball);
+  folder.write("ball.obj", ball);
   for (const char* other : {"", "sphere{ radius = 0.1, material = material{ transmission = 1 } }"}) {
     std::string text = "camera{ from = {0.3, 0.1, 0.2}, to = {1, 0.2, 0.1}, fov = 120 } light{ type = 'sky' }\n"
                        "obj{ file = 'ball.obj', material = material{ color = 0, ior = 1 } } " +

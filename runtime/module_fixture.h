@@ -5,18 +5,14 @@
 #include "compiler/ir/print.h"
 #include "compiler/ir/verify.h"
 #include "runtime/kernel_harness.h"
+#include "stdlib/print_precision_for_test.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <ostream>
 #include <random>
 
-namespace moonshade {
-
-inline void PrintTo(Precision precision, std::ostream* out) { *out << (precision == Precision::F32 ? "f32" : "f64"); }
-
-namespace testing {
+namespace moonshade::testing {
 
 /// The library's function with this symbol.
 inline const LibraryFunction& row(std::string_view symbol) {
@@ -106,5 +102,4 @@ inline std::string precision_name(const ::testing::TestParamInfo<Precision>& inf
   return ::testing::PrintToString(info.param);
 }
 
-} // namespace testing
-} // namespace moonshade
+} // namespace moonshade::testing

@@ -3,16 +3,12 @@
 #pragma once
 
 #include "stdlib/library.h"
+#include "stdlib/print_precision_for_test.h"
 
-#include <ostream>
 #include <span>
 #include <vector>
 
-namespace moonshade {
-
-inline void PrintTo(Precision precision, std::ostream* out) { *out << (precision == Precision::F32 ? "f32" : "f64"); }
-
-namespace test {
+namespace moonshade::test {
 
 /// The export of a row of the table or of a derivative, as compiled from its bitcode.
 void* export_address(const LibraryFunction& row, Precision precision, unsigned width);
@@ -34,5 +30,4 @@ std::vector<Column> run_export(const LibraryFunction& row, Precision precision, 
 /// True where the machine can run what the build made of the bitcode.
 bool exports_can_run();
 
-} // namespace test
-} // namespace moonshade
+} // namespace moonshade::test

@@ -19,12 +19,18 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace moonshade {
 
 /// How `number` is represented: `float` or `double`.
 enum class Precision : uint8_t { F32, F64 };
+constexpr std::string_view name_of(Precision precision) { return precision == Precision::F32 ? "f32" : "f64"; }
+/// What the names of a domain's exports end with: "_f32_w16".
+inline std::string export_ending(Precision precision, unsigned width) {
+  return std::string("_").append(name_of(precision)).append("_w").append(std::to_string(width));
+}
 
 /// The lane counts for which code can be made.
 inline constexpr std::array<unsigned, 5> kWidths = {1, 4, 8, 16, 32};

@@ -65,8 +65,7 @@ TEST(Library, HasBitcodeForEveryDomain) {
       auto bitcode = library_bitcode(precision, width);
       ASSERT_GT(bitcode.size(), 1000u);
       EXPECT_EQ(std::string(bitcode.data(), 4), "BC\xC0\xDE");
-      std::string file = std::string(MS_BITCODE_FOLDER "/exports_") + (precision == Precision::F32 ? "f32" : "f64") +
-                         "_w" + std::to_string(width) + ".bc";
+      std::string file = MS_BITCODE_FOLDER "/exports" + export_ending(precision, width) + ".bc";
       std::ifstream stream(file, std::ios::binary);
       std::string built((std::istreambuf_iterator<char>(stream)), {});
       EXPECT_TRUE(built == std::string(bitcode.data(), bitcode.size())) << file << " is not what is embedded";

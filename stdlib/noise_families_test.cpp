@@ -145,8 +145,6 @@ TEST(PeriodicNoise, HoldsInFloatToTheEndOfTheRange) {
   }
 }
 
-// Vectors -------------------------------------------------------------------------------------------------------------
-
 /// Sums of coordinates must not round: in the plane they put the point off the slice, where the range is another.
 TEST(PeriodicNoise, IsInFloatFarAwayWhatItIsInDouble) {
   std::mt19937 random(5);
@@ -163,6 +161,8 @@ TEST(PeriodicNoise, IsInFloatFarAwayWhatItIsInDouble) {
         << p[0] << " " << p[1];
   }
 }
+
+// Vectors -------------------------------------------------------------------------------------------------------------
 
 TEST(VectorNoise, BeginsWithTheNoiseAndItsPartsAreIndependent) {
   Points points;

@@ -76,31 +76,30 @@ template <class L> MS_INLINE Int<L> integer_idiv(Int<L> m, Int<L> n) {
   }
 }
 
+/// What `round` of the quotient leaves of m, on many lanes; `one` gives it for a lane of great integers.
+template <class L, class Round, class One> MS_INLINE Int<L> rest_of_lanes(Int<L> m, Int<L> n, Round round, One one) {
+  using I = Int<L>;
+  auto zero = to_mask<Double<I>>(n == I(0));
+  Double<I> dividend = small_to_double(m), divisor = small_to_double(select(zero, I(1), n));
+  Double<I> rest = dividend - round(dividend / divisor) * divisor; // exact
+  if (any_great(m, n)) return lane_by_lane<L>(m, n, one);
+  return small_to_integer<I>(rest);
+}
+
 template <class L> MS_INLINE Int<L> integer_mod(Int<L> m, Int<L> n) {
-  if constexpr (width_of<L> == 1) {
+  if constexpr (width_of<L> == 1)
     return modulo_one(m, n);
-  } else {
-    using I = Int<L>;
-    auto zero = to_mask<Double<I>>(n == I(0));
-    Double<I> dividend = small_to_double(m), divisor = small_to_double(select(zero, I(1), n));
-    Double<I> rest = dividend - floor(dividend / divisor) * divisor; // exact
-    if (any_great(m, n)) return lane_by_lane<L>(m, n, modulo_one);
-    return small_to_integer<I>(rest);
-  }
+  else
+    return rest_of_lanes<L>(m, n, [](auto x) __attribute__((always_inline)) { return floor(x); }, modulo_one);
 }
 
 /// math.fmod: the rest has the sign of m.
 template <class L> MS_INLINE Int<L> integer_fmod(Int<L> m, Int<L> n) {
-  if constexpr (width_of<L> == 1) {
+  if constexpr (width_of<L> == 1)
     return m % safe_divisor(n);
-  } else {
-    using I = Int<L>;
-    auto zero = to_mask<Double<I>>(n == I(0));
-    Double<I> dividend = small_to_double(m), divisor = small_to_double(select(zero, I(1), n));
-    Double<I> rest = dividend - trunc(dividend / divisor) * divisor; // exact
-    if (any_great(m, n)) return lane_by_lane<L>(m, n, integer_fmod<Scalar<L>>);
-    return small_to_integer<I>(rest);
-  }
+  else
+    return rest_of_lanes<L>(
+        m, n, [](auto x) __attribute__((always_inline)) { return trunc(x); }, integer_fmod<Scalar<L>>);
 }
 
 template <class L> MS_INLINE Int<L> shift_left(Int<L> x, Int<L> y) {

@@ -295,7 +295,7 @@ template <int N, int Reach> struct CellSteps {
 template <int N, int Reach> static constexpr CellSteps<N, Reach> kCellSteps;
 
 /// Comparisons that leave cells out: by more than distances round, as on no lane it may matter what others need.
-inline constexpr double kAllOfIt = 1 + 0x1p-10;
+inline constexpr double kWithRoom = 1 + 0x1p-10;
 
 /// The nearest site, as a vector from the point, and the cell that it belongs to.
 template <class L, int N> struct NearestSite {
@@ -336,7 +336,7 @@ template <class L, int N> MS_INLINE NearestSite<L, N> nearest_site(const Vec<N, 
       side[i] = n >> i & 1;
     look_at(side);
   }
-  if (any(less(other_side * other_side, value_lane(nearest) * constant<P>(kAllOfIt)))) {
+  if (any(less(other_side * other_side, value_lane(nearest) * constant<P>(kWithRoom)))) {
 #pragma clang loop unroll(disable)
     for (int n = 0; n < (N == 2 ? 9 : 27); ++n) {
       int side[N];
@@ -405,7 +405,7 @@ template <class L, int N> MS_INLINE Cell<L> voronoi_cell(const Vec<N, L>& p, L w
       square = square + away[i][step[i] + kReach];
     }
     P horizon = madd(value_lane(filtered ? second.distance : first.distance), 2.0, own);
-    if (!any(less(square, horizon * horizon * constant<P>(kAllOfIt)))) continue;
+    if (!any(less(square, horizon * horizon * constant<P>(kWithRoom)))) continue;
     Vec<N, L> to = cell_site(cell, jitter) - p, across = to - nearest.way;
     L inverse = one / sqrt(dot(across, across));
     Border<L, N> here = {dot(to + nearest.way, across) * half * inverse, across * inverse};

@@ -120,13 +120,13 @@ private:
   MS_INLINE L horizon() const { return (both_ ? found_.second : found_.first) * constant<L>(1 + 0x1p-12); }
   MS_INLINE static constexpr double unit() { return 1.0 / (1u << kFeatureBits<N>); }
 
-  /// The horizon is further than the nearest place `cells` cells beyond the farther neighbours' sides.
+  /// The horizon is further than the nearest place beyond all cells that have been looked at: the `cells` around the
+  /// point's, and at 0 its neighbours on the nearer sides.
   MS_INLINE bool reaches_beyond(int cells) const {
     Vec<N, L> along = {};
 #pragma clang loop unroll(full)
     for (int i = 0; i < N; ++i) {
-      L nearer = min(place_[i], constant<L>(1) - place_[i]);
-      L side = cells == 0 ? constant<L>(1) - nearer : constant<L>(1) + nearer;
+      L side = cells == 0 ? sides_[i][2].least : constant<L>(1) + sides_[i][1].least;
       along[0] = i == 0 ? side : min(along[0], side);
     }
     return any(less(metric_.measure(along), horizon()));
@@ -194,7 +194,7 @@ private:
         least[i] = row[i].least;
         inner &= step[i - 1] > 0 && step[i - 1] < 4;
       }
-      least[0] = inner ? constant<L>(1) + min(place_[0], constant<L>(1) - place_[0]) : constant<L>(0);
+      least[0] = inner ? constant<L>(1) + sides_[0][1].least : constant<L>(0);
       if (!any(less(metric_.measure(least), horizon()))) continue;
       for (int x = -2; x <= 2; x += inner ? 4 : 1) {
         row[0] = side(0, x);

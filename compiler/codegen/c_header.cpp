@@ -57,7 +57,7 @@ private:
   void open(const std::string& version) {
     const std::string guard = "MOONSHADE_SHADER_" + upper(interface_.prefix) + "_H";
     line("/* The shader " + in_comment(interface_.file) + " as an object file, for C99 and C++.");
-    line(" * Made by " + version + ", precision " + (code_.precision == Precision::F32 ? "f32" : "f64") +
+    line(" * Made by " + version + ", precision " + std::string(name_of(code_.precision)) +
          "; do not edit. Make the object with the same options:");
     line(" *");
     line(" *     shaderc --emit=obj [options] -o " + interface_.prefix + ".o " + in_comment(interface_.file));

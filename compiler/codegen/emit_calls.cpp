@@ -133,9 +133,7 @@ llvm::Function* ModuleEmitter::library_function(const LibraryFunction& row, bool
   if ((wanted & all) == all || is_derivative_export(row.symbol)) wanted = kAllResults; // derivatives take no null
   const bool lane_by_lane = export_order(row.symbol) == 2;
   const unsigned width = varying ? domain.width : 1;
-  const char* representation = domain.precision == Precision::F32 ? "f32" : "f64";
-  const std::string prefix = std::string(row.symbol) + "_" + representation + "_w";
-  const std::string name = prefix + std::to_string(width);
+  const std::string name = std::string(row.symbol) + export_ending(domain.precision, width);
   const std::string own_name = "moonshade_" + name + (wanted == kAllResults ? "" : "_" + std::to_string(wanted & all));
   if (llvm::Function* known = llvm_module.getFunction(own_name)) return known;
   llvm::Type* pointer = llvm::PointerType::get(domain.context, 0);
@@ -143,7 +141,8 @@ llvm::Function* ModuleEmitter::library_function(const LibraryFunction& row, bool
       lane_by_lane ? 1 + LibraryFunction::kMaxParameters : size_t{row.result_count} + row.parameter_count;
   const std::vector<llvm::Type*> pointers(count, pointer);
   llvm::Type* nothing = llvm::Type::getVoidTy(domain.context);
-  const std::string export_name = "ms_" + (lane_by_lane ? prefix + "1" : name);
+  const std::string export_name =
+      "ms_" + std::string(row.symbol) + export_ending(domain.precision, lane_by_lane ? 1 : width);
   llvm::Function* body = llvm_module.getFunction(export_name);
   if (body == nullptr) body = new_function(llvm::FunctionType::get(nothing, pointers, false), export_name, false);
   std::vector<llvm::Type*> results, parameters;

@@ -27,7 +27,7 @@ NativeExports domain_of(std::string_view name) {
   if (export_order(name) == 2) return {};
   for (const Precision precision : {Precision::F32, Precision::F64})
     for (const unsigned width : kWidths)
-      if (name.ends_with((precision == Precision::F32 ? "_f32_w" : "_f64_w") + std::to_string(width)))
+      if (name.ends_with(export_ending(precision, width)))
         return native_exports(precision, width, is_derivative_export(name));
   return {};
 }

@@ -83,7 +83,7 @@ std::string report_remarks(const ir::Module& module, const Options& options, Dia
   if (!target.error.empty()) return target.error;
   const auto [width, why] = choose_width(module, target, options);
   diagnostics.report(Code::Width, Span{},
-                     {std::to_string(width), options.precision == Precision::F32 ? "f32" : "f64", target.cpu,
+                     {std::to_string(width), std::string(name_of(options.precision)), target.cpu,
                       std::to_string(target.vector_bits), why});
   if (width == 1) return "";
   Remarks remarks(module, diagnostics);

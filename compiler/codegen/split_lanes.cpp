@@ -60,11 +60,9 @@ private:
     Halves& halves = halves_[value];
     if (halves[0] != nullptr) return halves;
     Builder builder(function_.getContext());
-    auto* instruction = llvm::dyn_cast<llvm::Instruction>(value);
-    if (instruction != nullptr)
-      builder.SetInsertPoint(*instruction->getInsertionPointAfterDef());
-    else
-      builder.SetInsertPoint(&*function_.getEntryBlock().getFirstInsertionPt());
+    builder.SetInsertPoint(&*function_.getEntryBlock().getFirstInsertionPt());
+    if (auto* instruction = llvm::dyn_cast<llvm::Instruction>(value))
+      if (const auto behind = instruction->getInsertionPointAfterDef()) builder.SetInsertPoint(*behind);
     for (unsigned which : {0U, 1U}) {
       llvm::SmallVector<int, 32> from(half_);
       std::iota(from.begin(), from.end(), static_cast<int>(which * half_));

@@ -34,21 +34,21 @@ public:
     for (VariableId i = 0; i < bounds_.size(); ++i) {
       const Variable& variable = function.variables[i];
       const bool candidate = i >= function.captures && variable.type == ValueType::Integer && variable.count == 1;
-      if (!candidate) bounds_[i].state = Bound::Known;
+      bounds_[i].is_found = !candidate;
     }
     for_each_instruction(function, [&](ValueId id) {
       const Instruction& instruction = function.instructions[id];
       if (instruction.op == Op::Store) stores_[instruction.index].push_back(instruction.operands[0]);
       for (const VariableId variable : instruction.variables) // to a function that does not know
-        bounds_[variable].state = Bound::Known;
+        bounds_[variable].is_found = true;
     });
   }
 
   /// How far from 0 the variable can get; nothing where that is not known, or beyond 32 bits.
   std::optional<uint64_t> bound(VariableId variable, int depth = 0) {
     Bound& bound = bounds_[variable];
-    if (bound.state == Bound::Unknown) {
-      bound.state = Bound::Known; // as without one, for what refers to it meanwhile
+    if (!bound.is_found) {
+      bound.is_found = true; // as without one, for what refers to it meanwhile
       bound.distance = sum_of_stores(variable, depth);
     }
     return bound.distance;
@@ -56,7 +56,7 @@ public:
 
 private:
   struct Bound {
-    enum State : uint8_t { Unknown, Known } state = Unknown;
+    bool is_found = false;
     std::optional<uint64_t> distance;
   };
 

@@ -214,7 +214,8 @@ private:
     if (instruction.operands.size() != 2) return {};
     const auto a = integer(instruction, 0), b = integer(instruction, 1);
     if (!a || !b) return {};
-    const bool below = a->high<b->low, above = a->low> b->high;
+    const bool below = a->high < b->low;
+    const bool above = b->high < a->low;
     switch (instruction.op) {
     case Op::Lt:
       return below ? std::optional(true) : a->low >= b->high ? std::optional(false) : std::nullopt;

@@ -129,8 +129,7 @@ void IrradianceCache::gather(std::span<const Place> places, uint32_t first, uint
     float cosine = glm::dot(light.direction, normal);
     if (!(light.pdf > 0) || is_black(light.radiance) || cosine <= 0) continue;
     Shadow shadow;
-    shadow.ray = {s.world + normal * s.offset, 0, light.direction,
-                  light.distance == kInfinity ? kInfinity : light.distance * kShadowReach - s.offset};
+    shadow.ray = {s.world + normal * s.offset, 0, light.direction, shadow_end(light.distance, s.offset)};
     shadow.owner = uint32_t(k);
     shadow.contribution = albedo * light.radiance * (cosine / light.pdf);
     if (!worker.shadows.wants_details()) {

@@ -47,6 +47,10 @@ inline uint32_t dimension_of(uint32_t segments, Draw draw) { return 1 + segments
 
 /// The part of the way to a light that a shadow ray goes: it stops short of the light's own surface.
 inline constexpr float kShadowReach = 1 - 1e-4f;
+/// Where it ends that begins `offset` away from the surface.
+inline float shadow_end(float distance, float offset) {
+  return distance == kInfinity ? kInfinity : distance * kShadowReach - offset;
+}
 
 /// Bounces from which chance ends paths.
 inline constexpr uint32_t kRouletteFrom = 5;

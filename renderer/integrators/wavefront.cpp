@@ -164,9 +164,9 @@ void Wavefront::scatter_in_volume(uint32_t index, const Flight& flight) {
   if (light.pdf > 0 && !is_black(light.radiance)) {
     float phase = phase_hg(glm::dot(path.ray.direction, light.direction), flight.anisotropy);
     float weight = light.delta || !goes_on ? 1.0f : power_heuristic(light.pdf, phase);
-    float far = light.distance == kInfinity ? kInfinity : light.distance * kShadowReach;
     Vec3 contribution = path.throughput * light.radiance * (phase * weight / light.pdf);
-    add_shadow({{point, 0, light.direction, far}, contribution, index}, light, path.width, path.spread);
+    add_shadow({{point, 0, light.direction, shadow_end(light.distance, 0)}, contribution, index}, light, path.width,
+               path.spread);
   }
   path.alive = goes_on && survives(path);
   if (!path.alive) return;
@@ -271,10 +271,10 @@ bool Wavefront::survives(Path& path) {
 /// From point `k`.
 void Wavefront::add_shadow(uint32_t path, size_t k, const LightSample& light, const Vec3& contribution) {
   const ShadedPoint s = shader_.point(k);
-  float far = light.distance == kInfinity ? kInfinity : light.distance * kShadowReach - s.offset;
   float side = glm::dot(light.direction, s.geometric_normal) < 0 ? -1.0f : 1.0f;
   Vec3 origin = s.world + s.geometric_normal * (s.offset * side);
-  add_shadow({{origin, 0, light.direction, far}, contribution, path}, light, shader_.width(k), paths_[path].spread);
+  add_shadow({{origin, 0, light.direction, shadow_end(light.distance, s.offset)}, contribution, path}, light,
+             shader_.width(k), paths_[path].spread);
 }
 
 void Wavefront::add_shadow(const Shadow& shadow, const LightSample& light, float width, float spread) {

@@ -42,18 +42,18 @@ struct Fours {
   F x, y, z, w;
 };
 
+/// Of each four lanes of both, four: those of `b` count from 16.
+template <int i, int j, int k, int l> MS_INLINE F picked(F a, F b) {
+  return __builtin_shufflevector(a, b, i, j, k, l, i + 4, j + 4, k + 4, l + 4, i + 8, j + 8, k + 8, l + 8, i + 12,
+                                 j + 12, k + 12, l + 12);
+}
+
 /// Within each four lanes, rows become columns; it is its own inverse.
 MS_INLINE Fours transposed(const Fours& f) {
-#define PAIRS(a, b, i, j)                                                                                              \
-  __builtin_shufflevector(a, b, i, i + 16, j, j + 16, i + 4, i + 20, j + 4, j + 20, i + 8, i + 24, j + 8, j + 24,      \
-                          i + 12, i + 28, j + 12, j + 28)
-#define HALVES(a, b, i)                                                                                                \
-  __builtin_shufflevector(a, b, i, i + 1, i + 16, i + 17, i + 4, i + 5, i + 20, i + 21, i + 8, i + 9, i + 24, i + 25,  \
-                          i + 12, i + 13, i + 28, i + 29)
-  F xy = PAIRS(f.x, f.y, 0, 1), zw = PAIRS(f.z, f.w, 0, 1), xy2 = PAIRS(f.x, f.y, 2, 3), zw2 = PAIRS(f.z, f.w, 2, 3);
-  return {HALVES(xy, zw, 0), HALVES(xy, zw, 2), HALVES(xy2, zw2, 0), HALVES(xy2, zw2, 2)};
-#undef PAIRS
-#undef HALVES
+  F xy = picked<0, 16, 1, 17>(f.x, f.y), zw = picked<0, 16, 1, 17>(f.z, f.w);
+  F xy2 = picked<2, 18, 3, 19>(f.x, f.y), zw2 = picked<2, 18, 3, 19>(f.z, f.w);
+  return {picked<0, 1, 16, 17>(xy, zw), picked<2, 3, 18, 19>(xy, zw), picked<0, 1, 16, 17>(xy2, zw2),
+          picked<2, 3, 18, 19>(xy2, zw2)};
 }
 
 using Four = Wide<float, 4>;

@@ -120,8 +120,7 @@ struct Scattered {
       EXPECT_NEAR(glm::length(b.shadows[i].contribution - expected), 0, 1e-5f * glm::length(expected));
       EXPECT_EQ(b.shadows[i].owner, b.owner[i]);
       EXPECT_EQ(b.shadows[i].ray.direction, in);
-      EXPECT_EQ(b.shadows[i].ray.far,
-                b.light_distance[i] == kInfinity ? kInfinity : b.light_distance[i] * kShadowReach - b.offset[i]);
+      EXPECT_EQ(b.shadows[i].ray.far, shadow_end(b.light_distance[i], b.offset[i]));
       leaves(b.shadows[i].ray);
       ++lit;
     } else {

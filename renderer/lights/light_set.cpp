@@ -124,18 +124,18 @@ void LightSet::add_sky(const Light& light) {
   entry.kind = Kind::Sky;
   entry.light = light;
   for (int band = 0; band < kSkyBands; ++band)
-    entry.cumulative.push_back(luminance(radiance_at(sky, (band + 0.5f) * 2 / kSkyBands - 1)));
+    entry.cumulative.push_back(luminance(radiance_at(sky, (float(band) + 0.5f) * 2 / kSkyBands - 1)));
   // Irradiance by the normal's height: rings of equal solid angle, each over all azimuths.
   constexpr int kNormals = 65, kAzimuths = 64;
   irradiance_.resize(kNormals);
   for (int i = 0; i < kNormals; ++i) {
-    float y = -1 + 2.0f * i / (kNormals - 1), x = std::sqrt(std::max(0.0f, 1 - y * y));
+    float y = -1 + 2.0f * float(i) / (kNormals - 1), x = std::sqrt(std::max(0.0f, 1 - y * y));
     Vec3 sum(0);
     for (int band = 0; band < kSkyBands; ++band) {
-      float h = (band + 0.5f) * 2 / kSkyBands - 1, r = std::sqrt(1 - h * h);
+      float h = (float(band) + 0.5f) * 2 / kSkyBands - 1, r = std::sqrt(1 - h * h);
       float cosines = 0;
       for (int a = 0; a < kAzimuths; ++a)
-        cosines += std::max(0.0f, x * r * std::cos((a + 0.5f) * 2 * kPi / kAzimuths) + y * h);
+        cosines += std::max(0.0f, x * r * std::cos((float(a) + 0.5f) * 2 * kPi / kAzimuths) + y * h);
       sum += radiance_at(sky, h) * (cosines / kAzimuths);
     }
     irradiance_[i] += sum * (4 * kPi / kSkyBands);
@@ -156,29 +156,26 @@ void LightSet::add_mesh(const PlacedObject& placed, uint32_t id, const ObjectEmi
   entry.object = id;
   entry.by_shader = emission.by_shader;
   entry.triangle_pdf.assign(mesh.triangles.size(), 0.0f);
-  std::vector<float> brightness;
   double sum = 0;
   for (uint32_t t = 0; t < mesh.triangles.size(); ++t) {
     const Vec3& e = emission.mean[t];
     if (!(luminance(e) > 0)) continue;
     entry.one_sided = scene_.materials[placed.material_of(t)].emits_outward_only;
     const Mesh::Corners& c = mesh.triangles[t];
-    float area = 0.5f * glm::length(glm::cross(placed.vertices[c[1]] - placed.vertices[c[0]],
-                                               placed.vertices[c[2]] - placed.vertices[c[0]]));
+    Vec3 a = placed.vertices[c[0]], b = placed.vertices[c[1]], d = placed.vertices[c[2]];
+    float area = 0.5f * glm::length(glm::cross(b - a, d - a)), brightness = luminance(e);
     entry.triangles.push_back(t);
-    entry.triangle_emission.push_back(e);
-    entry.cumulative.push_back(area * luminance(e));
-    brightness.push_back(luminance(e));
+    entry.emitting.push_back(
+        {a, brightness, b, placed.mirrored ? -1.0f : 1.0f, d, 0, entry.by_shader ? Vec3(1) : e, 1});
+    entry.cumulative.push_back(area * brightness);
     sum += entry.cumulative.back();
   }
   entry.power = float(sum);
   if (entry.triangles.empty() || !accumulate(entry.cumulative)) return;
   for (size_t i = 0; i < entry.triangles.size(); ++i) {
-    const Mesh::Corners& c = mesh.triangles[entry.triangles[i]];
-    float density = entry.triangle_pdf[entry.triangles[i]] = float(brightness[i] / sum);
-    entry.emitting.push_back({placed.vertices[c[0]], density, placed.vertices[c[1]], placed.mirrored ? -1.0f : 1.0f,
-                              placed.vertices[c[2]], entry.one_sided ? 1.0f : 0.0f,
-                              entry.by_shader ? Vec3(1) : entry.triangle_emission[i], 1});
+    LightTriangle& t = entry.emitting[i];
+    t.density = entry.triangle_pdf[entry.triangles[i]] = float(t.density / sum);
+    t.one_sided = entry.one_sided ? 1.0f : 0.0f;
   }
   light_of_object_[id] = int32_t(lights_.size());
   lights_.push_back(std::move(entry));

@@ -90,8 +90,7 @@ private:
     std::vector<float> cumulative;       ///< Mesh: over their weights; Sky: over bands of height
     std::vector<float> band_density;     ///< Sky: per solid angle, by band
     std::vector<float> triangle_pdf;     ///< Mesh: density per area, by primitive; 0 where it does not emit
-    std::vector<Vec3> triangle_emission; ///< Mesh: parallel to `triangles`
-    std::vector<LightTriangle> emitting; ///< Mesh: the same as samples take them, emission 1 where a shader is asked
+    std::vector<LightTriangle> emitting; ///< Mesh: parallel to `triangles`; emission is 1 where a shader is asked
     Vec3 emission{0};                    ///< Sphere, Ellipsoid
     float power = 0;                     ///< Mesh: luminance of its mean emission, times area
     bool by_shader = false;              ///< emission is a mean

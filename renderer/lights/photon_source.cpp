@@ -33,7 +33,7 @@ float PhotonSource::power_of(const LightSet::Entry& entry) const {
   case LightSet::Kind::Spot:
     return luminance(entry.light.color) * 2 * kPi * entry.one_minus_cos;
   case LightSet::Kind::Mesh:
-    return entry.power * kPi * (entry.one_sided ? 1 : 2);
+    return entry.power * kPi * (entry.one_sided ? 1.0f : 2.0f);
   case LightSet::Kind::Volume:
     return entry.glow->power() * 4 * kPi;
   case LightSet::Kind::Sphere:
@@ -106,14 +106,13 @@ EmittedPhoton PhotonSource::from_surface(const LightSet::Entry& entry, const Vec
     float first = at.x;
     uint32_t index = LightSet::choose(entry.cumulative, first);
     photon.primitive = entry.triangles[index];
-    const Mesh::Corners& c = placed.object->mesh->triangles[photon.primitive];
-    const Vec3 &a = placed.vertices[c[0]], &b = placed.vertices[c[1]], &d = placed.vertices[c[2]];
+    const LightTriangle& t = entry.emitting[index];
     float root = std::sqrt(first);
-    point = a * (1 - root) + b * (root * (1 - at.y)) + d * (root * at.y);
-    normal = normalize_or(glm::cross(b - a, d - a), Vec3(0)) * (placed.mirrored ? -1.0f : 1.0f);
-    pdf = entry.triangle_pdf[photon.primitive];
-    emission = entry.triangle_emission[index];
-    offset = 1e-6f * max_component(glm::max(glm::abs(a), glm::max(glm::abs(b), glm::abs(d))));
+    point = t.a * (1 - root) + t.b * (root * (1 - at.y)) + t.c * (root * at.y);
+    normal = normalize_or(glm::cross(t.b - t.a, t.c - t.a), Vec3(0)) * t.side;
+    pdf = t.density;
+    emission = t.emission;
+    offset = 1e-6f * max_component(glm::max(glm::abs(t.a), glm::max(glm::abs(t.b), glm::abs(t.c))));
     if (!entry.one_sided) {
       if (choice < 0.5f) normal = -normal;
       pdf *= 0.5f;

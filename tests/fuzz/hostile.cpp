@@ -113,25 +113,19 @@ std::string locals_in_blocks(size_t count) {
                }) +
          "return h end";
 }
-/// Each constant is the sum of the one before with itself.
-std::string doubling_constants(size_t count) {
-  return "local c0 <const> = 0\n" +
-         lines(count,
-               [](size_t i) {
-                 const std::string before = name("c", i);
-                 return "local " + name("c", i + 1) + " <const> = " + before + " + " + before;
-               }) +
-         "function height(p) return p.x - " + name("c", count) + " end";
+/// Each constant is made of the one before, twice.
+template <class Twice>
+std::string doubling(size_t count, std::string_view first, const Twice& twice, std::string_view part) {
+  return "local c0 <const> = " + std::string(first) + "\n" +
+         lines(count, [&](size_t i) { return "local " + name("c", i + 1) + " <const> = " + twice(name("c", i)); }) +
+         "function height(p) return p.x - " + name("c", count) + std::string(part) + " end";
 }
-/// Each record holds the one before twice.
+std::string doubling_constants(size_t count) {
+  return doubling(count, "0", [](const std::string& one) { return one + " + " + one; }, "");
+}
 std::string doubling_records(size_t count) {
-  return "local r0 <const> = { a = 1 }\n" +
-         lines(count,
-               [](size_t i) {
-                 const std::string before = name("r", i);
-                 return "local " + name("r", i + 1) + " <const> = { a = " + before + ", b = " + before + " }";
-               }) +
-         "function height(p) return p.x - " + name("r", count) + ".a.b.a end";
+  return doubling(
+      count, "{ a = 1 }", [](const std::string& one) { return "{ a = " + one + ", b = " + one + " }"; }, ".a.b.a");
 }
 /// Every variable is live at once: assigned first, read last.
 std::string live_variables(size_t count) {

@@ -55,8 +55,7 @@ struct Variant {
   unsigned width;
   int optimization;
   std::string name() const {
-    return std::string(precision == Precision::F32 ? "f32" : "f64") + " width " + std::to_string(width) + " -O" +
-           std::to_string(optimization);
+    return std::string(name_of(precision)) + " width " + std::to_string(width) + " -O" + std::to_string(optimization);
   }
 };
 

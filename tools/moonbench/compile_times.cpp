@@ -152,9 +152,7 @@ int report_compile_times(const Options& options) {
   }
   if (rows.empty()) return fail(tools::kCallAtFault, "there is no such entry");
   options.json ? print_json_rows(rows) : print_table(rows);
-  std::fflush(stdout);
-  return std::cout && std::ferror(stdout) == 0 ? tools::kDone
-                                               : fail(tools::kMachineAtFault, "cannot write to standard output");
+  return tools::finish_output("moonbench");
 }
 
 } // namespace moonshade::moonbench

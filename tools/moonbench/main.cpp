@@ -26,9 +26,9 @@ bool wanted(const Options& options, const std::string& entry) {
 /// Adds the rows of one file's entries; gives the exit status.
 int measure_file(const std::string& path, Options options, std::vector<Row>& rows) {
   options.images = images_of(path);
-  FileText file = read_file(path);
+  const FileText file = read_file(path);
   if (!file.error.empty()) return fail(kInputAtFault, "cannot read '" + path + "': " + file.error);
-  const CheckedShader shader(path, std::move(file.text), {}, tools::modules_of(path));
+  const CheckedShader shader(path, file.text, {}, tools::modules_of(path));
   print_text(shader.diagnostics(), shader.sources(), std::cerr, isatty(STDERR_FILENO));
   if (!shader.ok()) return kInputAtFault;
   const auto& entries = shader.info().entries;
@@ -47,8 +47,8 @@ int measure_file(const std::string& path, Options options, std::vector<Row>& row
 }
 
 int report_rows(const Options& options, const std::vector<Row>& rows) {
-  std::cout << (options.json ? json(rows) : table(rows)) << std::flush;
-  if (!std::cout) return fail(kMachineAtFault, "cannot write to standard output");
+  std::cout << (options.json ? json(rows) : table(rows));
+  if (const int status = tools::finish_output("moonbench"); status != kDone) return status;
   if (!options.plot.empty())
     if (const std::string error = write_file(options.plot, plot(rows)); !error.empty())
       return fail(kMachineAtFault, "cannot write '" + options.plot + "': " + error);

@@ -87,7 +87,8 @@ std::string write_file(const std::string& path, const std::string& bytes) {
 
 int finish_output(const char* program) {
   std::cout.flush();
-  if (std::cout) return kDone;
+  std::fflush(stdout);
+  if (std::cout && std::ferror(stdout) == 0) return kDone;
   std::cerr << program << ": error: cannot write to standard output\n";
   return kMachineAtFault;
 }
