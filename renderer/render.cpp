@@ -76,6 +76,7 @@ public:
     }
     progress_.paths_resumed = totals_.paths;
     progress_.rays_resumed = totals_.rays;
+    resumed_samples_ = film_->samples();
     show_progress();
     while (!finished()) {
       uint32_t samples = std::min(pass_samples_, settings_.samples - film_->samples());
@@ -124,8 +125,8 @@ private:
   }
   double elapsed() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
   bool time_is_up() const { return options_.seconds > 0 && elapsed() >= options_.seconds; }
-  /// The first pass is finished whatever the time.
-  bool should_stop() const { return progress_.cancel || (film_->samples() > 0 && time_is_up()); }
+  /// The first pass is finished whatever the time, of a render that goes on, too: else it might never get further.
+  bool should_stop() const { return progress_.cancel || (film_->samples() > resumed_samples_ && time_is_up()); }
   bool finished() const { return film_->samples() >= settings_.samples || order_.empty(); }
 
   /// Only those whose blocks go on.
@@ -289,6 +290,7 @@ private:
   tbb::task_arena arena_;
   std::chrono::steady_clock::time_point start_;
   uint32_t pass_samples_ = 1;
+  uint32_t resumed_samples_ = 0; ///< of an earlier run
   std::unique_ptr<PassSetup> setup_;
   std::vector<std::unique_ptr<Wavefront>> workers_;
   // Of the pass in hand, pixel by pixel in `order_`.
