@@ -1,6 +1,8 @@
 // Drives kernels over batches of any count (driver.h). Uses nothing of C++'s library.
 #include "compiler/codegen/driver.h"
 
+#include "compiler/codegen/stack_place.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -129,7 +131,8 @@ extern "C" void moonshade_run_batch(const KernelView* kernel, const KernelBatch*
     KernelBatch call = *batch;
     call.count = whole;
     call.context = &context;
-    call_kernel(kernel->kernel, call);
+    // Away from the constants, which stand at the beginning of a page.
+    call_with_stack_at(0, [&] { call_kernel(kernel->kernel, call); });
   }
   if (whole != batch->count) run_block(context, *batch, whole, static_cast<unsigned>(batch->count - whole));
 }

@@ -41,6 +41,8 @@ void FunctionAttributes::apply(llvm::Function& function) const {
   if (!features.empty()) function.addFnAttr("target-features", features);
   if (wide) function.addFnAttr("prefer-vector-width", "512");
   function.addFnAttr("no-builtins");
+  // Without one the stack is not aligned to vectors that spill, and each of them may lie across two cache lines.
+  function.addFnAttr("frame-pointer", "all");
   function.addFnAttr("warn-stack-size", std::to_string(max_stack));
 }
 
