@@ -3,6 +3,7 @@
 // points. runtime/images has an opener that reads files, by OpenImageIO.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -30,6 +31,8 @@ public:
   virtual ~Image() = default;
   /// Called from any number of threads at once.
   virtual void look_up(const ImageLookup& lookup) const = 0;
+  /// Texels across and down; 0 where the host does not say.
+  virtual std::array<uint32_t, 2> size() const { return {0, 0}; }
 };
 
 struct OpenedImage {

@@ -53,7 +53,7 @@ void HitShader::sort() {
 void HitShader::shade_run(const CompiledMaterial& material, size_t begin, size_t end, FaultLog& faults,
                           WorkerStats& stats) {
   shown_ = &material;
-  bool bends = material.height.has_value();
+  bool bends = material.bends();
   place(material.needs, bends, begin, end);
   stats.shading_points += end - begin;
   auto clear_faults = [&] { std::fill_n(batch_.faulted.begin() + long(begin), end - begin, uint8_t(0)); };

@@ -35,6 +35,7 @@ struct PointArrays {
 /// Derivatives of height by p, P and uv, three arrays each (two by uv), or null where it has none.
 struct HeightArrays {
   const float *by_local[3], *by_world[3], *by_uv[2];
+  bool unit_tangents; ///< `by_uv` are slopes along tangents of length 1
   const uint8_t* codes;
 };
 

@@ -485,6 +485,7 @@ void bend_normals(const TriangleSource* sources, const Met* met, size_t count, c
     if (heights.by_uv[0]) {
       // u and v each rise by 1 along their own tangent and stay along the other.
       Vector u = normal_matrix.transposed(get(points, kDpdu, k)), v = normal_matrix.transposed(get(points, kDpdv, k));
+      if (heights.unit_tangents) u = normalize_or(u, u), v = normalize_or(v, v);
       Vector across = cross(u, v);
       F inverse = F(1.0f) / dot(across, across);
       g = g + cross(v, across) * (inverse * load(heights.by_uv[0] + block)) +

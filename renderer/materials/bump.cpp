@@ -40,6 +40,7 @@ void bend_by_gradient(const HeightGradient& gradient, ShadingBatch& batch, size_
     if (gradient.by_world) heights.by_world[c] = batch.heights[gradient.by_world + c].data();
     if (gradient.by_uv && c < 2) heights.by_uv[c] = batch.heights[gradient.by_uv + c].data();
   }
+  heights.unit_tangents = gradient.unit_tangents;
   heights.codes = codes;
   kernels().bend_normals(run.geometry.sources().data(), run.met, count, heights, run.points, begin);
 }

@@ -33,7 +33,9 @@ private:
   std::string from_whole_file(CompiledMaterial& compiled, std::string& warnings);
   std::string slot(CompiledMaterial& compiled, Slot slot, const std::string& file, std::string& warnings);
   std::string height(CompiledMaterial& compiled, const std::string& file, std::string& warnings);
+  OpenedImage open(const SlotImage& image, bool raw, std::string& warnings);
   std::string image(CompiledMaterial& compiled, Slot slot, std::string& warnings);
+  std::string bump_image(CompiledMaterial& compiled, std::string& warnings);
   std::string volume(CompiledMaterial& compiled, std::string& warnings);
   std::string volume_entry(const std::string& file, const char* name, unsigned components, bool required,
                            std::optional<EntryCall>& call, std::string& warnings);
@@ -77,14 +79,20 @@ std::string MaterialLoader::slot(CompiledMaterial& compiled, Slot slot, const st
 }
 
 /// An image that cannot be read is no error: models travel without theirs.
+OpenedImage MaterialLoader::open(const SlotImage& image, bool raw, std::string& warnings) {
+  OpenedImage opened = source_.open_image(image, raw);
+  if (opened.image) return opened;
+  const std::string warning = image.place + ": warning: the image '" + image.name + "' is not shown: ";
+  if (warnings.find(warning) == std::string::npos) warnings += warning + opened.error + "\n";
+  return opened;
+}
+
 std::string MaterialLoader::image(CompiledMaterial& compiled, Slot slot, std::string& warnings) {
   const SlotImage& image = *material_.images[size_t(slot)];
   const SlotInfo& info = slot_infos()[size_t(slot)];
   const bool raw = info.components == 1 && image.part != SlotImage::Part::Alpha; // alpha is never decoded
-  OpenedImage opened = source_.open_image(image, raw);
+  OpenedImage opened = open(image, raw, warnings);
   if (!opened.image) {
-    const std::string warning = image.place + ": warning: the image '" + image.name + "' is not shown: ";
-    if (warnings.find(warning) == std::string::npos) warnings += warning + opened.error + "\n";
     if (slot == Slot::Emission) compiled.constants[size_t(slot)] = Vec3(0); // what glows in spots glows nowhere then
     return "";
   }
@@ -120,6 +128,15 @@ std::string MaterialLoader::height(CompiledMaterial& compiled, const std::string
   std::string error = shader_of(file, shader, warnings);
   if (error.empty()) error = EntryCall::bind(shader, file, "height", 1, compiled.height);
   return error.empty() && compiled.bump == BumpMode::Gradient ? bind_gradient(compiled, shader, file) : error;
+}
+
+std::string MaterialLoader::bump_image(CompiledMaterial& compiled, std::string& warnings) {
+  const BumpImage& bump = *material_.bump_image;
+  OpenedImage opened = open(bump.image, true, warnings);
+  if (!opened.image) return "";
+  std::string error = bind_gradient(compiled, bump_image_shader(bump, std::move(opened.image)), bump.image.name);
+  if (error.empty()) compiled.gradient->unit_tangents = true;
+  return error;
 }
 
 /// Every entry that the material's own file has and the material does not set.
@@ -205,9 +222,12 @@ std::string MaterialLoader::load(CompiledMaterial& compiled, std::string& warnin
     if (std::string error = height(compiled, material_.height_shader, warnings); !error.empty()) return error;
   if (!material_.shader.empty())
     if (std::string error = from_whole_file(compiled, warnings); !error.empty()) return error;
+  if (material_.bump_image && !compiled.height)
+    if (std::string error = bump_image(compiled, warnings); !error.empty()) return error;
   for (const auto& call : compiled.calls)
     if (call) compiled.needs |= call->needs();
   if (compiled.height) compiled.needs |= compiled.height->needs();
+  if (compiled.gradient) compiled.needs |= compiled.gradient->call.needs();
   if (compiled.gradient && compiled.gradient->by_uv) compiled.needs |= channel_mask(kDpdu, 6);
   for (size_t s = 0; s < kSlotCount; ++s)
     for (int c = 0; c < 3; ++c)

@@ -33,6 +33,7 @@ using FaultLog = std::map<FaultKey, uint64_t>;
 struct HeightGradient {
   EntryCall call;
   unsigned by_local = 0, by_world = 0, by_uv = 0;
+  bool unit_tangents = false; ///< `by_uv`: slopes, per length along the tangents, as images have them
 };
 
 /// What is asked of the compiler for HeightGradient.
@@ -56,7 +57,7 @@ struct CompiledMaterial {
   std::array<std::optional<EntryCall>, kSlotCount> calls;
   std::optional<EntryCall> height;
   std::optional<VolumeCalls> volume; ///< then there is no surface
-  /// Where the shader gives it and `bump` asks for it.
+  /// Where the shader gives it and `bump` asks for it; or an image's.
   std::optional<HeightGradient> gradient;
   BumpMode bump = BumpMode::Gradient;
   uint32_t needs = 0; ///< channels that any of its entries reads
@@ -83,8 +84,9 @@ struct CompiledMaterial {
     return !volume && !emits() && !may_differ(Slot::Reflectance, 0) && !may_differ(Slot::Metallic, 0) &&
            !may_differ(Slot::Transmission, 0) && !may_differ(Slot::Opacity, 1) && !may_differ(Slot::Ior, 1);
   }
+  bool bends() const { return height || gradient; }
   bool has_shaders() const {
-    return height || std::any_of(calls.begin(), calls.end(), [](const auto& call) { return call.has_value(); });
+    return bends() || std::any_of(calls.begin(), calls.end(), [](const auto& call) { return call.has_value(); });
   }
   bool may_differ(Slot slot, float value) const {
     const Vec3& constant = constants[size_t(slot)];

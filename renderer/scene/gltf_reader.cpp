@@ -49,7 +49,10 @@ private:
   std::vector<uint32_t> indices(const tinygltf::Primitive& primitive, size_t vertices, const std::string& what) const;
   std::shared_ptr<const Mesh> mesh(const tinygltf::Primitive& primitive, const std::string& what);
   void materials();
+  bool open(const std::string& material, const char* use, int texture, int coordinates,
+            const tinygltf::ExtensionMap& extensions, SlotImage& image);
   void image(Material& material, Slot slot, const tinygltf::TextureInfo& info, SlotImage::Part part);
+  void normals(Material& material, const tinygltf::NormalTextureInfo& info);
   std::string find_image(int index, SlotImage& image);
   void transform(const tinygltf::ExtensionMap& extensions, const std::string& what, SlotImage& image);
   void warn_of_what_is_passed_over();
@@ -61,7 +64,6 @@ private:
   const tinygltf::Model& gltf_;
   const Folders& folders_;
   Model model_;
-  bool normal_maps_ = false;
   uint64_t elements_left_ = uint64_t(1) << 25; ///< that primitives may read, which may share what they read
   std::map<std::pair<int, size_t>, std::shared_ptr<const Mesh>> meshes_; ///< by mesh and primitive
   std::map<int, std::shared_ptr<const std::string>> image_bytes_;        ///< by image: kept once
@@ -298,24 +300,41 @@ void GltfReader::transform(const tinygltf::ExtensionMap& extensions, const std::
     warn(what + "the rotation of an image is passed over");
 }
 
+/// The image of a material's texture for some `use`; false, with a warning, where it cannot be shown.
+bool GltfReader::open(const std::string& material, const char* use, int texture, int coordinates,
+                      const tinygltf::ExtensionMap& extensions, SlotImage& image) {
+  image.place = path_;
+  const std::string what = "the material '" + material + "': ";
+  const bool known = texture >= 0 && size_t(texture) < gltf_.textures.size();
+  std::string error = find_image(known ? gltf_.textures[size_t(texture)].source : -1, image);
+  if (error.empty() && coordinates != 0) error = "it has texture coordinates of its own, which are not read";
+  if (!error.empty()) {
+    const std::string name = image.name.empty() ? "" : " '" + image.name + "'";
+    warn(what + "the image" + name + " of its " + use + " is not shown: " + error);
+    return false;
+  }
+  transform(extensions, what, image);
+  return true;
+}
+
 /// What the slot has so far is the factor, and stands in for an image that cannot be shown.
 void GltfReader::image(Material& material, Slot slot, const tinygltf::TextureInfo& info, SlotImage::Part part) {
   if (info.index < 0) return;
   SlotImage image;
   image.part = part;
-  image.place = path_;
   image.factor = material.values[size_t(slot)].value_or(slot_infos()[size_t(slot)].default_value);
-  const std::string what = "the material '" + material.name + "': ";
-  const bool known = size_t(info.index) < gltf_.textures.size();
-  std::string error = find_image(known ? gltf_.textures[size_t(info.index)].source : -1, image);
-  if (error.empty() && info.texCoord != 0) error = "it has texture coordinates of its own, which are not read";
-  if (!error.empty()) {
-    if (slot == Slot::Emission) material.values[size_t(slot)] = Vec3(0);
-    const std::string name = image.name.empty() ? "" : " '" + image.name + "'";
-    return warn(what + "the image" + name + " of its " + slot_infos()[size_t(slot)].name + " is not shown: " + error);
-  }
-  transform(info.extensions, what, image);
-  material.images[size_t(slot)] = std::move(image);
+  if (open(material.name, slot_infos()[size_t(slot)].name, info.index, info.texCoord, info.extensions, image))
+    material.images[size_t(slot)] = std::move(image);
+  else if (slot == Slot::Emission)
+    material.values[size_t(slot)] = Vec3(0);
+}
+
+void GltfReader::normals(Material& material, const tinygltf::NormalTextureInfo& info) {
+  if (info.index < 0) return;
+  SlotImage image;
+  image.factor = Vec3(std::abs(info.scale) < 1e9 ? float(info.scale) : 1.0f);
+  if (open(material.name, "normals", info.index, info.texCoord, info.extensions, image))
+    material.bump_image = BumpImage{std::move(image), BumpImage::Kind::Normals};
 }
 
 void GltfReader::materials() {
@@ -363,13 +382,12 @@ void GltfReader::materials() {
         opacity = Vec3(opacity->x >= cutoff ? 1.0f : 0.0f);
       }
     }
-    normal_maps_ |= source.normalTexture.index >= 0;
+    normals(m, source.normalTexture);
     model_.materials.push_back(std::move(m));
   }
 }
 
 void GltfReader::warn_of_what_is_passed_over() {
-  if (normal_maps_) warn("normal maps are passed over");
   if (!gltf_.skins.empty()) warn("skins are passed over");
   if (!gltf_.animations.empty()) warn("animations are passed over");
 }

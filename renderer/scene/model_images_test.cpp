@@ -76,6 +76,22 @@ protected:
     return prepared_ ? render(*prepared_, {}, progress).picture : Picture{};
   }
 
+  /// What is seen in the middle of the square's left upper quarter, of which the model m.obj or m.gltf is made.
+  Vec3 normal_of(const std::string& model) {
+    read(folder_.write("scene.lua", "camera{ type = 'orthographic', from = {0, 0, 3}, to = {0, 0, 0}, height = 2 }\n"
+                                    "render{ width = 8, height = 8, samples = 4 }\n" +
+                                        model));
+    RenderProgress progress;
+    RenderOptions options;
+    options.contents.first = true;
+    return prepared_ ? glm::normalize(Vec3(render(*prepared_, options, progress).film->first(18).normal)) : Vec3(0);
+  }
+  Vec3 normal_of_mtl(const std::string& statements, const std::string& place = "") {
+    folder_.write("m.mtl", "newmtl m\n" + statements);
+    folder_.write("m.obj", kSquare);
+    return normal_of("obj{ file = 'm.obj'" + place + " }");
+  }
+
   TemporaryFolder folder_;
   std::unique_ptr<ShaderSource> shaders_;
   std::unique_ptr<PreparedScene> prepared_;
@@ -192,6 +208,56 @@ TEST_F(ModelImages, ArePartOfWhatAPictureIsMadeOf) {
   EXPECT_THAT(recording.files(), ElementsAre(folder_ / "grey.png"));
 }
 
+// Bumps ---------------------------------------------------------------------------------------------------------------
+
+TEST_F(ModelImages, OfMtlThatAreGreyBendTheNormalAsHeights) {
+  std::vector<uint8_t> ramp, upwards;
+  for (int y = 0; y < 64; ++y)
+    for (int x = 0; x < 64; ++x)
+      ramp.push_back(uint8_t(4 * x)), upwards.push_back(uint8_t(4 * (63 - y)));
+  write("ramp.png", 64, 64, 1, ramp);
+  write("upwards.png", 64, 64, 1, upwards);
+  // White stands out by 0.02 · 25 of the image's width.
+  const float slope = 0.5f * 256 / 255;
+  for (const char* key : {"map_Bump", "map_bump", "bump", "BUMP"})
+    expect_near(normal_of_mtl(std::string(key) + " -bm 25 ramp.png\n"), glm::normalize(Vec3(-slope, 0, 1)), 1e-3f);
+  EXPECT_TRUE(warnings_.empty() && prepare_warnings_.empty());
+  expect_near(normal_of_mtl("bump -bm 25 upwards.png\n"), glm::normalize(Vec3(0, -slope, 1)), 1e-3f);
+  expect_near(normal_of_mtl("bump -bm -25 ramp.png\n"), glm::normalize(Vec3(slope, 0, 1)), 1e-3f);
+  expect_near(normal_of_mtl("bump -bm 25 -s -1 1 1 ramp.png\n"), glm::normalize(Vec3(slope, 0, 1)), 1e-3f);
+  // It looks the same in whatever size, but for how often it is repeated.
+  expect_near(normal_of_mtl("bump -bm 25 ramp.png\n", ", scale = 3"), glm::normalize(Vec3(-slope, 0, 1)), 1e-3f);
+  expect_near(normal_of_mtl("bump -bm 25 -s 0.5 0.5 1 ramp.png\n"), glm::normalize(Vec3(-slope, 0, 1)), 1e-3f);
+}
+
+TEST_F(ModelImages, OfNormalsBendTheNormal) {
+  write("normals.png", 1, 1, 3, {204, 102, 230});
+  write("inward.png", 1, 1, 3, {128, 255, 0});
+  const Vec3 stated = Vec3(204, 102, 230) * (2 / 255.0f) - Vec3(1);
+  expect_near(normal_of_mtl("norm normals.png\n"), glm::normalize(stated), 1e-3f);
+  write("blue.png", 1, 1, 3, {153, 102, 230});
+  expect_near(normal_of_mtl("map_Bump blue.png\n"), glm::normalize(Vec3(153, 102, 230) * (2 / 255.0f) - Vec3(1)),
+              1e-3f);
+  expect_near(normal_of_mtl("norm -bm 0.5 normals.png\n"), glm::normalize(stated * Vec3(0.5f, 0.5f, 1)), 1e-3f);
+  expect_near(normal_of_mtl("norm normals.png\nbump inward.png\n"), glm::normalize(stated), 1e-3f);
+  expect_near(normal_of_mtl("norm normals.png\n", ", scale = {3, 3, 3}, rotate = {0, 0, 90}"),
+              glm::normalize(Vec3(-stated.y, stated.x, stated.z)), 1e-3f);
+  const Vec3 steep = normal_of_mtl("norm inward.png\n");
+  EXPECT_TRUE(steep.y > 0.9f && steep.z > 0) << steep.y << " " << steep.z;
+}
+
+TEST_F(ModelImages, OfBumpsGiveWayToShadersAndMayBeMissing) {
+  write("normals.png", 1, 1, 3, {204, 102, 230});
+  folder_.write("flat.lua", "function height(p) return 0 * p.x end\n");
+  expect_near(normal_of_mtl("norm normals.png\nbump_shader flat.lua\n"), Vec3(0, 0, 1));
+  expect_near(normal_of_mtl("bump none.png\n"), Vec3(0, 0, 1));
+  ASSERT_EQ(warnings_.size(), 1u);
+  EXPECT_THAT(warnings_[0], HasSubstr("m.mtl:2: 'bump': "));
+  folder_.write("broken.png", "\x89PNG\r\n\x1a\nbroken");
+  expect_near(normal_of_mtl("norm broken.png\n"), Vec3(0, 0, 1));
+  EXPECT_THAT(prepare_warnings_, HasSubstr("m.mtl:2: warning: the image 'broken.png' is not shown: "));
+}
+
 // glTF
 // ------------------------------------------------------------------------------------------------------------------
 
@@ -265,6 +331,17 @@ TEST_F(ModelImages, OfGltfAreTransformedWithVPointingDown) {
   expect_near(slot(Slot::Color, 0.25f, 0), Vec3(1)); // (0.75, 0.75)
 }
 
+TEST_F(ModelImages, OfGltfBendTheNormal) {
+  write("normals.png", 1, 1, 3, {204, 102, 230});
+  const Vec3 stated = Vec3(204, 102, 230) * (2 / 255.0f) - Vec3(1);
+  for (const auto& [scale, factor] : {std::pair(R"(,"scale":0.5)", 0.5f), std::pair("", 1.0f)}) {
+    folder_.write("m.gltf",
+                  gltf(R"("normalTexture":{"index":0)" + std::string(scale) + "}", image(R"("uri":"normals.png")")));
+    expect_near(normal_of("gltf{ file = 'm.gltf' }"), glm::normalize(stated * Vec3(factor, factor, 1)), 1e-3f);
+    EXPECT_TRUE(warnings_.empty() && prepare_warnings_.empty());
+  }
+}
+
 TEST_F(ModelImages, OfGltfThatAreNotThereLeaveThePlainColour) {
   folder_.write("sub/x.txt", "");
   const std::string texture = R"("pbrMetallicRoughness":{"baseColorFactor":[0.25,0.5,0.75,1],"metallicFactor":0,)"
@@ -288,9 +365,10 @@ TEST_F(ModelImages, OfGltfThatAreNotThereLeaveThePlainColour) {
   }
   write_corners("corners.png");
   read(folder_.write("m.gltf", gltf(R"("pbrMetallicRoughness":{"baseColorTexture":{"index":0,"texCoord":1}},)"
-                                    R"("normalTexture":{"index":0})",
+                                    R"("normalTexture":{"index":3})",
                                     image(R"("uri":"corners.png")"))));
-  EXPECT_THAT(warnings_, ElementsAre(HasSubstr("texture coordinates of its own"), HasSubstr("normal maps are passed")));
+  EXPECT_THAT(warnings_, ElementsAre(HasSubstr("texture coordinates of its own"),
+                                     HasSubstr("of its normals is not shown: it is not there")));
 }
 
 } // namespace

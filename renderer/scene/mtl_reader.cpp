@@ -44,7 +44,9 @@ private:
   bool numbers(std::istringstream& words, Vec3& v, bool allow_one);
   void color(Slot slot, std::istringstream& words);
   void scalar(const std::string& key, std::istringstream& words);
-  void image(const std::string& key, Slot slot, std::istringstream& words);
+  std::optional<SlotImage> image(const std::string& key, std::istringstream& words);
+  void slot_image(const std::string& key, Slot slot, std::istringstream& words);
+  void bump_image(const std::string& key, BumpImage::Kind kind, std::istringstream& words);
   void finish_material();
 
   std::string path_;
@@ -181,8 +183,8 @@ void read_vector(std::istringstream& words, Vec2& to) {
   }
 }
 
-/// `map_Kd -s 2 2 1 -clamp on wood grain.png`
-void MtlParser::image(const std::string& key, Slot slot, std::istringstream& words) {
+/// `map_Kd -s 2 2 1 -clamp on wood grain.png`; nothing, with a warning, where there is none. Its factor is that of -bm.
+std::optional<SlotImage> MtlParser::image(const std::string& key, std::istringstream& words) {
   SlotImage image;
   std::string word;
   std::streampos name_at = words.tellg();
@@ -193,26 +195,43 @@ void MtlParser::image(const std::string& key, Slot slot, std::istringstream& wor
       read_vector(words, image.scale);
     else if (word == "-o")
       read_vector(words, image.offset);
-    else if (Vec2 ignored(0); word == "-t")
-      read_vector(words, ignored);
+    else if (Vec2 first(0); word == "-t")
+      read_vector(words, first);
+    else if (first = Vec2(1); word == "-bm")
+      read_vector(words, first), image.factor = Vec3(first.x);
     else
       for (int k = 0; k < count; ++k)
         words >> word;
   }
   words.clear(), words.seekg(name_at);
   image.name = rest(words);
-  if (image.name.empty()) return warn("'" + key + "' names no image; ignored");
+  if (image.name.empty()) return warn("'" + key + "' names no image; ignored"), std::nullopt;
   ResolvedPath resolved = folders_.resolve_or_beside(folder_of(path_), image.name);
   const size_t comment = image.name.find(" #");
   if (!resolved.error.empty() && comment != std::string::npos) {
     image.name = trimmed(image.name.substr(0, comment));
     resolved = folders_.resolve_or_beside(folder_of(path_), image.name);
   }
-  if (!resolved.error.empty()) return warn("'" + key + "': " + resolved.error + "; drawn without this image");
+  if (!resolved.error.empty())
+    return warn("'" + key + "': " + resolved.error + "; drawn without this image"), std::nullopt;
   image.file = resolved.path;
   image.place = place();
-  image.part = slot == Slot::Opacity ? SlotImage::Part::Mask : SlotImage::Part::Red;
-  material().images[size_t(slot)] = std::move(image);
+  return image;
+}
+
+void MtlParser::slot_image(const std::string& key, Slot slot, std::istringstream& words) {
+  std::optional<SlotImage> found = image(key, words);
+  if (!found) return;
+  found->part = slot == Slot::Opacity ? SlotImage::Part::Mask : SlotImage::Part::Red;
+  material().images[size_t(slot)] = std::move(found);
+}
+
+/// Normals say more than heights.
+void MtlParser::bump_image(const std::string& key, BumpImage::Kind kind, std::istringstream& words) {
+  std::optional<SlotImage> found = image(key, words);
+  auto& known = material().bump_image;
+  if (!found || (known && known->kind == BumpImage::Kind::Normals && kind != known->kind)) return;
+  known = BumpImage{std::move(*found), kind};
 }
 
 void MtlParser::finish_material() {
@@ -265,9 +284,12 @@ void MtlParser::line(std::string_view text) {
   else if (key == "Ns" || key == "Ni" || key == "d" || key == "Tr" || key == "Pr" || key == "Pm")
     scalar(key, words);
   else if (const auto slot = slot_of_image(lower_case(key)))
-    image(key, *slot, words);
-  else if (key != "map_Ka" &&
-           (key.starts_with("map_") || key == "bump" || key == "disp" || key == "norm" || key == "refl"))
+    slot_image(key, *slot, words);
+  else if (const std::string small = lower_case(key); small == "map_bump" || small == "bump")
+    bump_image(key, BumpImage::Kind::ByLooks, words); // many programs write normals there
+  else if (small == "norm" || small == "map_norm")
+    bump_image(key, BumpImage::Kind::Normals, words);
+  else if (key != "map_Ka" && (key.starts_with("map_") || key == "disp" || key == "refl"))
     warn("images of this kind ('" + key + "') are not shown; ignored");
   else if (std::string lower = lower_case(std::string(text)); lower.find("shader") != std::string::npos)
     warn("unknown statement '" + key + "'; shaders are named by texture_shader, bump_shader and reflect_shader");

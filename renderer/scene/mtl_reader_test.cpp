@@ -63,7 +63,7 @@ TEST_F(MtlReader, BumpImagesAreNoShaders) {
   EXPECT_EQ(mtl.error, "");
   EXPECT_EQ(mtl.materials[0].height_shader, "");
   ASSERT_EQ(mtl.warnings.size(), 2u);
-  EXPECT_THAT(mtl.warnings[0], HasSubstr("m.mtl:2: images of this kind ('bump') are not shown"));
+  EXPECT_THAT(mtl.warnings[0], HasSubstr("m.mtl:2: 'bump': there is no file 'rock.png'"));
 }
 
 TEST_F(MtlReader, ReadsTheCommonNumbers) {

@@ -68,6 +68,18 @@ struct SlotImage {
   std::optional<float> cutoff; ///< the slot is 1 from here on, and 0 below
 };
 
+/// An image that a model's material names to bend the normal.
+struct BumpImage {
+  /// Heights: red, of which white stands out by `factor.x` times kBumpDepth of the image's width on the surface,
+  /// whatever size it has there. Normals: in tangent space, red, green and blue from -1 to 1, the first two times
+  /// `factor.x`. By looks: normals where the image is mostly blue, as only those are.
+  enum class Kind : uint8_t { Heights, Normals, ByLooks };
+
+  SlotImage image;
+  Kind kind = Kind::Heights;
+};
+inline constexpr float kBumpDepth = 0.02f;
+
 /// How `height` bends the normal: by its exact gradient, by differences over the footprint, by the paper's formula.
 enum class BumpMode : uint8_t { Gradient, Differences, Paper };
 
@@ -81,6 +93,7 @@ struct Material {
   /// A shader file for one entry alone; wins over `shader` and images.
   std::array<std::string, kSlotCount> shaders;
   std::string height_shader;
+  std::optional<BumpImage> bump_image; ///< where no shader gives `height`
   /// Gives every entry that is not set above.
   std::string shader;
   std::map<std::string, Constant> parameters;

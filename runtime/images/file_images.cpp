@@ -149,6 +149,10 @@ public:
     }
   }
 
+  std::array<uint32_t, 2> size() const override {
+    return {static_cast<uint32_t>(pyramid_->width(0)), static_cast<uint32_t>(pyramid_->height(0))};
+  }
+
 private:
   std::shared_ptr<Textures> textures_;
   std::unique_ptr<Pyramid> pyramid_;
