@@ -1,5 +1,5 @@
 // The one place that knows which Embree is in use: 3 or 4. They differ in the header's folder and in how a query is
-// called.
+// called, and give the same pictures bit for bit (tried over the gallery, 3.13.5 and 4.3.3).
 #pragma once
 
 #if MOONSHADE_EMBREE_MAJOR >= 4
