@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <string>
 #include <sys/resource.h>
-#include <unistd.h>
+#include <sys/time.h>
 
 namespace moonshade::fuzz {
 
@@ -20,11 +20,11 @@ inline constexpr bool kIsSanitized = true;
 inline constexpr bool kIsSanitized = false;
 #endif
 
-/// Runs from its construction on; a hang ends the program, and with it the test.
+/// Runs from its construction on; what goes on without end is ended, and the program and its test with it.
 class Measure {
 public:
-  Measure() { alarm(kHangSeconds); }
-  ~Measure() { alarm(0); }
+  Measure() { end_after(kHangSeconds); }
+  ~Measure() { end_after(0); }
   Measure(const Measure&) = delete;
   Measure& operator=(const Measure&) = delete;
 
@@ -38,6 +38,12 @@ public:
   }
 
 private:
+  /// Of the processor's time, too; a program that only waits is ended by the test's own limit.
+  static void end_after(unsigned seconds) {
+    const itimerval limit{{}, {time_t(seconds), 0}};
+    setitimer(ITIMER_PROF, &limit, nullptr);
+  }
+
   std::clock_t start_ = std::clock();
 };
 
