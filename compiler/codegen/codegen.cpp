@@ -4,6 +4,7 @@
 #include "compiler/codegen/c_interface_code.h"
 #include "compiler/codegen/emitter.h"
 #include "compiler/codegen/entry.h"
+#include "compiler/codegen/fold_scales.h"
 #include "compiler/codegen/link.h"
 #include "compiler/codegen/native_calls.h"
 #include "compiler/codegen/pipeline.h"
@@ -246,8 +247,10 @@ Generated generate(const ir::Module& module, const Options& options) {
     parts.target.machine->setOptLevel(llvm::CodeGenOptLevel::None);
     cut_long_blocks(*parts.module);
   }
-  if (!costly && options.optimization > 0)
+  if (!costly && options.optimization > 0) {
+    fold_scales(*parts.module);
     split_lanes(*parts.module, generated.info.width, best_width(parts.target, options.precision));
+  }
   generated.times.optimize = watch.lap();
 #ifndef NDEBUG
   if (std::string complaint = verify(*parts.module); !complaint.empty())

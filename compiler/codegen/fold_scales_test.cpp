@@ -1,0 +1,101 @@
+// fold_scales: functions of LLVM's before and after, as text.
+#include "compiler/codegen/fold_scales.h"
+
+#include <llvm/AsmParser/Parser.h>
+#include <llvm/IR/LLVMContext.h>
+#include <llvm/IR/Verifier.h>
+#include <llvm/Support/SourceMgr.h>
+#include <llvm/Support/raw_ostream.h>
+
+#include <gtest/gtest.h>
+
+namespace moonshade::codegen {
+namespace {
+
+/// The function `f` with these instructions, which begin with the integers %n of at most 24 bits, after folding.
+std::string after(const std::string& instructions) {
+  const std::string text = "declare <2 x float> @llvm.fma.v2f32(<2 x float>, <2 x float>, <2 x float>)\n"
+                           "define <2 x float> @f(<2 x i32> %x, <2 x float> %y) {\n"
+                           "  %n = lshr <2 x i32> %x, splat (i32 8)\n" +
+                           instructions + "}\n";
+  llvm::LLVMContext context;
+  llvm::SMDiagnostic diagnostic;
+  const std::unique_ptr<llvm::Module> module = llvm::parseAssemblyString(text, diagnostic, context);
+  if (module == nullptr) return diagnostic.getMessage().str();
+  fold_scales(*module);
+  std::string result;
+  llvm::raw_string_ostream stream(result);
+  if (llvm::verifyModule(*module, &stream)) return result;
+  for (const llvm::Instruction& instruction : module->getFunction("f")->getEntryBlock())
+    stream << instruction << "\n";
+  return result.substr(result.find('\n') + 1); // without that of %n
+}
+
+/// What is left as it is.
+void expect_kept(const std::string& instructions) { EXPECT_EQ(after(instructions), instructions); }
+
+TEST(FoldScales, ConstantsTakeThePowerOfTwo) {
+  EXPECT_EQ(
+      after("  %f = uitofp <2 x i32> %n to <2 x float>\n"
+            "  %h = fmul <2 x float> %f, splat (float 0x3E70000000000000)\n"
+            "  %a = call <2 x float> @llvm.fma.v2f32(<2 x float> %h, <2 x float> splat (float 3.0), <2 x float> %y)\n"
+            "  %b = call <2 x float> @llvm.fma.v2f32(<2 x float> splat (float 5.0), <2 x float> %h, <2 x float> %a)\n"
+            "  %c = fmul <2 x float> %h, splat (float -7.0)\n"
+            "  %d = fadd <2 x float> %b, %c\n"
+            "  ret <2 x float> %d\n"),
+      "  %f = uitofp <2 x i32> %n to <2 x float>\n"
+      "  %a = call <2 x float> @llvm.fma.v2f32(<2 x float> %f, <2 x float> splat (float 0x3E88000000000000), <2 x "
+      "float> %y)\n"
+      "  %b = call <2 x float> @llvm.fma.v2f32(<2 x float> splat (float 0x3E94000000000000), <2 x float> %f, <2 x "
+      "float> %a)\n"
+      "  %c = fmul <2 x float> %f, splat (float 0xBE9C000000000000)\n"
+      "  %d = fadd <2 x float> %b, %c\n"
+      "  ret <2 x float> %d\n");
+}
+
+TEST(FoldScales, SignedConversionsOfWhatIsPositiveCountToo) {
+  EXPECT_EQ(after("  %f = sitofp <2 x i32> %n to <2 x float>\n"
+                  "  %h = fmul <2 x float> %f, splat (float 5.0e-01)\n"
+                  "  %c = fmul <2 x float> %h, splat (float 3.0)\n"
+                  "  ret <2 x float> %c\n"),
+            "  %f = sitofp <2 x i32> %n to <2 x float>\n"
+            "  %c = fmul <2 x float> %f, splat (float 1.500000e+00)\n"
+            "  ret <2 x float> %c\n");
+}
+
+TEST(FoldScales, WhatWouldRoundOtherwiseStays) {
+  // Numbers that the conversion rounds; a factor that is no power of two; one that underflows.
+  expect_kept("  %f = uitofp <2 x i32> %x to <2 x float>\n"
+              "  %h = fmul <2 x float> %f, splat (float 5.000000e-01)\n"
+              "  %c = fmul <2 x float> %h, splat (float 3.000000e+00)\n"
+              "  ret <2 x float> %c\n");
+  expect_kept("  %f = uitofp <2 x i32> %n to <2 x float>\n"
+              "  %h = fmul <2 x float> %f, splat (float 7.500000e-01)\n"
+              "  %c = fmul <2 x float> %h, splat (float 3.000000e+00)\n"
+              "  ret <2 x float> %c\n");
+  expect_kept("  %f = uitofp <2 x i32> %n to <2 x float>\n"
+              "  %h = fmul <2 x float> %f, splat (float 0x3E70000000000000)\n"
+              "  %c = fmul <2 x float> %h, splat (float 0x3990000000000000)\n"
+              "  ret <2 x float> %c\n");
+}
+
+TEST(FoldScales, WhatIsWantedAsANumberStays) {
+  // As an addend; beside no constant; once with a constant and once without.
+  expect_kept("  %f = uitofp <2 x i32> %n to <2 x float>\n"
+              "  %h = fmul <2 x float> %f, splat (float 5.000000e-01)\n"
+              "  %c = call <2 x float> @llvm.fma.v2f32(<2 x float> %y, <2 x float> splat (float 3.000000e+00), <2 x "
+              "float> %h)\n"
+              "  ret <2 x float> %c\n");
+  expect_kept("  %f = uitofp <2 x i32> %n to <2 x float>\n"
+              "  %h = fmul <2 x float> %f, splat (float 5.000000e-01)\n"
+              "  %c = fmul <2 x float> %h, %h\n"
+              "  ret <2 x float> %c\n");
+  expect_kept("  %f = uitofp <2 x i32> %n to <2 x float>\n"
+              "  %h = fmul <2 x float> %f, splat (float 5.000000e-01)\n"
+              "  %c = fmul <2 x float> %h, splat (float 3.000000e+00)\n"
+              "  %d = fmul <2 x float> %h, %c\n"
+              "  ret <2 x float> %d\n");
+}
+
+} // namespace
+} // namespace moonshade::codegen
