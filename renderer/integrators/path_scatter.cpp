@@ -1,71 +1,121 @@
 // Path tracing: at every vertex one light sample and one BSDF sample, weighed by the power heuristic; Russian roulette
-// by the throughput from the fifth segment on. A path has at most Settings::depth segments. diffuse_scatter.cpp does
-// the same, many points at once, for materials that can be nothing but diffuse.
+// by the throughput from the fifth segment on. A path has at most Settings::depth segments. What a surface does to the
+// path that meets it goes point by point, what it scatters 16 points at once.
 #include "renderer/integrators/wavefront.h"
-#include "renderer/sampling/warp.h"
+
+#include <cstring>
 
 namespace moonshade::renderer {
 
 void Wavefront::scatter_path(const CompiledMaterial& material, size_t begin, size_t end) {
-  if (material.only_diffuse()) return scatter_diffuse(material, begin, end);
-  bool has_lights = scene_.lights->count() > 0;
+  bool only_scatters = !material.emits() && !material.may_differ(Slot::Opacity, 1) && is_black(material.absorption);
+  BlockMaterial scattering = block_material(material);
+  size_t points[kLanes], count = 0;
   for (size_t k = begin; k < end; ++k) {
-    uint32_t index = shader_.owner(k);
-    Path& path = paths_[index];
+    Path& path = paths_[shader_.owner(k)];
     if (end_if_faulted(path, k)) continue;
-    SurfaceValues values = shader_.values(k);
-    if (passes(path, k, values)) continue;
-    absorb(path, material, k, values);
-    add_emission(path, material, k, values);
+    if (!only_scatters) {
+      SurfaceValues values = shader_.values(k);
+      if (passes(path, k, values)) continue;
+      absorb(path, material, k, values);
+      add_emission(path, material, k, values);
+    }
     path.alive = may_bounce(path);
     if (!path.alive) continue;
-    Bsdf bsdf = shader_.bsdf(material, k, values);
-    if (has_lights && bsdf.has_extent()) sample_light(path, index, k, bsdf, kAllLobes, true);
-    path.alive = sample_bsdf(path, k, bsdf, kAllLobes);
+    points[count++] = k;
+    if (count < kLanes) continue;
+    scatter_block(scattering, points, count);
+    count = 0;
+  }
+  if (count > 0) scatter_block(scattering, points, count);
+}
+
+/// What the BSDF will look up there.
+static AlbedoNeeds albedo_needs(const CompiledMaterial& m) {
+  float roughness = m.constants[size_t(Slot::Roughness)].x;
+  bool rough = m.calls[size_t(Slot::Roughness)] || !(roughness * roughness < kSmoothAlpha);
+  bool metal = m.may_differ(Slot::Metallic, 0), glass = m.may_differ(Slot::Transmission, 0);
+  bool coat = m.may_differ(Slot::Metallic, 1) && m.may_differ(Slot::Transmission, 1) && m.may_differ(Slot::Ior, 1);
+  return {coat || (rough && (metal || (glass && m.thin))), rough && glass && !m.thin};
+}
+
+/// What the kernels need of a material. Slots that are constants are in the block from here on.
+Wavefront::BlockMaterial Wavefront::block_material(const CompiledMaterial& m) {
+  BlockMaterial result{m.only_diffuse(), m.thin, albedo_tables(albedo_needs(m)), {}};
+  auto slot = [&](Slot which, int component, LaneFloats& lanes) {
+    if (m.calls[size_t(which)])
+      result.shaded.push_back({shader_.results(which, component), &lanes});
+    else
+      std::fill_n(lanes, kLanes, m.constants[size_t(which)][component]);
+  };
+  for (int c = 0; c < 3; ++c)
+    slot(Slot::Color, c, block_.color[c]), slot(Slot::Reflectance, c, block_.reflectance[c]);
+  slot(Slot::Roughness, 0, block_.roughness), slot(Slot::Metallic, 0, block_.metallic);
+  slot(Slot::Ior, 0, block_.ior), slot(Slot::Transmission, 0, block_.transmission);
+  return result;
+}
+
+/// Of an array of points, those of a block: mostly they follow each other.
+static void load(LaneFloats& lanes, const float* from, const size_t* points, size_t count) {
+  if (count == kLanes && points[kLanes - 1] - points[0] == kLanes - 1)
+    std::memcpy(lanes, from + points[0], sizeof lanes);
+  else
+    for (size_t i = 0; i < kLanes; ++i)
+      lanes[i] = from[points[i < count ? i : 0]];
+}
+
+void Wavefront::load_block(const BlockMaterial& material, const size_t* points, size_t count) {
+  ScatterBlock& b = block_;
+  const PointArrays& from = shader_.arrays();
+  for (size_t c = 0; c < 3; ++c) {
+    load(b.point[c], from.inputs[kWorld + c], points, count);
+    load(b.normal[c], from.inputs[kNormal + c], points, count);
+    load(b.geometric[c], from.inputs[kGeometric + c], points, count);
+  }
+  for (const auto& [results, lanes] : material.shaded)
+    load(*lanes, results, points, count);
+  load(b.offset, from.offset, points, count);
+  load(b.width, from.width, points, count);
+  for (size_t i = 0; i < kLanes; ++i) {
+    size_t point = points[i < count ? i : 0];
+    b.owner[i] = shader_.owner(point);
+    b.paths[i] = &paths_[b.owner[i]];
+    b.backface[i] = from.backface[point];
   }
 }
 
-/// Of a surface that the path's ray has met.
-void Wavefront::add_emission(Path& path, const CompiledMaterial& material, size_t k, const SurfaceValues& values) {
-  if (is_black(values.emission) || (material.emits_outward_only && shader_.backface(k))) return;
-  float weight = 1;
-  if (!path.mirror) {
-    const ShadedPoint s = shader_.point(k);
-    const Hit& hit = shader_.hit(k);
-    float pdf = scene_.lights->object_pdf(hit.object, hit.primitive, path.from, path.ray.direction,
-                                          path.travelled + s.distance, s.geometric_normal);
-    weight = power_heuristic(path.pdf, pdf);
+void Wavefront::scatter_block(const BlockMaterial& material, const size_t* points, size_t count) {
+  ScatterBlock& b = block_;
+  const LightSet& lights = *scene_.lights;
+  load_block(material, points, count);
+  kernels_.draw_vertices(b, uint32_t(lights.count()));
+  if (lights.count()) {
+    lights.look_up(b, count, block_lights_);
+    kernels_.sample_lights(b, lights.formulas().data(), lights.formulas().size(), float(lights.count()));
+  } else {
+    std::fill_n(b.light_pdf, kLanes, 0.0f);
   }
-  path.radiance += path.throughput * values.emission * weight;
+  if (material.only_diffuse)
+    kernels_.scatter_diffuse(b, material.albedos);
+  else
+    kernels_.scatter(b, material.albedos, material.thin);
+  for (size_t i = 0; i < count; ++i)
+    if (b.straight[i]) go_straight(*b.paths[i], points[i]);
+  add_shadows(count);
 }
 
-/// `both_ways`: the directions that the lobes are sampled by find lights, too.
-void Wavefront::sample_light(Path& path, uint32_t index, size_t k, const Bsdf& bsdf, uint8_t lobes, bool both_ways) {
-  LightSample light = scene_.lights->sample(shader_.point(k).world, path.sampler.one(dimension(path, kLightChoice)),
-                                            path.sampler.two(dimension(path, kLightPoint)));
-  if (!(light.pdf > 0) || is_black(light.radiance)) return;
-  BsdfValue value = bsdf.evaluate(light.direction, lobes);
-  if (is_black(value.f_cos)) return;
-  float weight = light.delta || !both_ways ? 1.0f : power_heuristic(light.pdf, value.pdf);
-  add_shadow(index, k, light, path.throughput * value.f_cos * light.radiance * (weight / light.pdf));
-}
-
-/// The next direction; false where the path ends.
-bool Wavefront::sample_bsdf(Path& path, size_t k, const Bsdf& bsdf, uint8_t lobes) {
-  BsdfSample next =
-      bsdf.sample(path.sampler.one(dimension(path, kLobe)), path.sampler.two(dimension(path, kDirection)), lobes);
-  if (!next.valid) return false;
-  path.throughput *= next.weight;
-  path.eta2 *= next.eta2;
-  if (!survives(path)) return false;
-  if (next.straight) {
-    go_straight(path, k);
-    return path.alive;
+/// Those of the block.
+void Wavefront::add_shadows(size_t count) {
+  const ScatterBlock& b = block_;
+  if (!shadows_.wants_details()) {
+    if (shadows_.room() < count) trace_shadows();
+    return shadows_.add(b.shadows, b.lit, count);
   }
-  path.pdf = next.pdf;
-  path.mirror = next.mirror;
-  follow(path, k, next.direction, next.spread);
-  return true;
+  for (size_t i = 0; i < count; ++i) {
+    if (!b.lit[i]) continue;
+    block_lights_[i].distance = b.light_distance[i];
+    add_shadow(b.shadows[i], block_lights_[i], b.width[i], b.spread[i]);
+  }
 }
 
 } // namespace moonshade::renderer

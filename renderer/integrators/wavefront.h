@@ -47,9 +47,15 @@ private:
   bool may_bounce(const Path& path) const { return path.bounces + 1 < settings_.depth; }
 
   void scatter_path(const CompiledMaterial& material, size_t begin, size_t end);
-  void scatter_diffuse(const CompiledMaterial& material, size_t begin, size_t end);
-  void scatter_block(const CompiledMaterial& material, const size_t* points, size_t count);
-  void load_block(const CompiledMaterial& material, const size_t* points, size_t count);
+  /// What all blocks of a material have in common.
+  struct BlockMaterial {
+    bool only_diffuse, thin;
+    AlbedoTables albedos;
+    std::vector<std::pair<const float*, LaneFloats*>> shaded; ///< by shaders, and where it goes in the block
+  };
+  BlockMaterial block_material(const CompiledMaterial& material);
+  void scatter_block(const BlockMaterial& material, const size_t* points, size_t count);
+  void load_block(const BlockMaterial& material, const size_t* points, size_t count);
   void add_shadows(size_t count);
   void add_emission(Path& path, const CompiledMaterial& material, size_t k, const SurfaceValues& values);
   void sample_light(Path& path, uint32_t index, size_t k, const Bsdf& bsdf, uint8_t lobes, bool both_ways);

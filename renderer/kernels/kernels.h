@@ -10,6 +10,7 @@
 #include "renderer/geometry/geometry.h"
 #include "renderer/integrators/path.h"
 #include "renderer/lights/light_lanes.h"
+#include "renderer/materials/albedo.h"
 
 namespace moonshade::renderer {
 
@@ -43,18 +44,18 @@ struct HeightArrays {
 using LaneFloats = float[kLanes];
 using LaneInts = uint32_t[kLanes];
 
-/// Points that scatter diffusely, and all that is drawn and found for them. Lanes that nobody asked for repeat the
-/// first.
+/// Points that scatter, and all that is drawn and found for them. Lanes that nobody asked for repeat the first.
 struct alignas(64) ScatterBlock {
   // Of points and materials, by who fills the block.
   Path* paths[kLanes];
-  LaneFloats point[3], normal[3], geometric[3], offset, width, color[3], scale;
-  LaneInts owner;
+  LaneFloats point[3], normal[3], geometric[3], offset, width;
+  LaneFloats color[3], reflectance[3], roughness, metallic, ior, transmission;
+  LaneInts owner, backface;
   // Of paths, and drawn for them.
   LaneFloats throughput[3], eta2, spread;
   LaneInts segments, bounces, key, sample;
   LaneInts light;
-  LaneFloats light_u, light_v, light_w, direction_u, direction_v, survival;
+  LaneFloats light_u, light_v, light_w;
   // Where a light is: on a triangle, or in a direction of the surroundings that are formulas (`sky` not 0); or else
   // found already.
   const LightTriangle* triangles[kLanes];
@@ -65,6 +66,8 @@ struct alignas(64) ScatterBlock {
   // Result: rays towards the lights, where `lit` is not 0.
   Shadow shadows[kLanes];
   LaneInts lit;
+  // Result: paths that go straight on, of which nothing but the throughput is changed.
+  LaneInts straight;
 };
 
 struct Kernels {
@@ -82,13 +85,15 @@ struct Kernels {
   /// them.
   void (*surroundings)(const EnvironmentLight* lights, size_t light_count, float lights_in_scene,
                        const Vec3* directions, size_t count, Vec3* radiance, float* density);
-  /// What the paths of a block are like, and numbers for their vertices.
+  /// What the paths of a block are like, and numbers for light samples.
   void (*draw_vertices)(ScatterBlock& block, uint32_t light_count);
   /// What the lights of a block send, of `triangles` and `sky`.
   void (*sample_lights)(ScatterBlock& block, const EnvironmentLight* lights, size_t light_count, float lights_in_scene);
-  /// The diffuse lobe of a block, both ways: to the lights, and onwards. Paths that end are not `alive`; of them,
-  /// nothing but radiance and faults is kept.
-  void (*scatter_diffuse)(ScatterBlock& block);
+  /// The BSDF of a block, both ways: to the lights, and onwards. Paths that end are not `alive`; of them, nothing but
+  /// radiance and faults is kept. The first is for what is the same with no reflectance, no metal, no transmission and
+  /// an index of 1.
+  void (*scatter_diffuse)(ScatterBlock& block, const AlbedoTables& albedos);
+  void (*scatter)(ScatterBlock& block, const AlbedoTables& albedos, bool thin);
 };
 
 /// Those that this machine runs, the fastest last.

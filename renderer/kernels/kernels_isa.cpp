@@ -1,100 +1,14 @@
 // One instruction set's kernels: MS_KERNELS names the table.
-#include "renderer/kernels/kernels.h"
-
 #include "renderer/geometry/triangle_point.h"
+#include "renderer/kernels/scatter.h"
 #include "renderer/materials/channels.h"
-#include "renderer/materials/diffuse.h"
 
 namespace moonshade::renderer {
 
 namespace {
 
 using namespace lanes;
-using F = Wide<float, int(kLanes)>;
-using U = UInt32<F>;
-using I = Int32<F>;
-using M = Mask<F>;
-using Vector = V3<F>;
-
-#define LANES for (size_t i = 0; i < kLanes; ++i)
-
-MS_INLINE F load(const float* from) {
-  F value;
-  __builtin_memcpy(&value, from, sizeof value);
-  return value;
-}
-MS_INLINE U load(const uint32_t* from) {
-  U value;
-  __builtin_memcpy(&value, from, sizeof value);
-  return value;
-}
-template <class V> MS_INLINE void store(V value, void* to) { __builtin_memcpy(to, &value, sizeof value); }
-MS_INLINE Vector load(const LaneFloats (&from)[3]) { return {{load(from[0]), load(from[1]), load(from[2])}}; }
-MS_INLINE void store(const Vector& v, LaneFloats (&to)[3]) {
-  for (int c = 0; c < 3; ++c)
-    store(v[c], to[c]);
-}
-MS_INLINE M truth(U bits) { return stdlib::to_mask<F>(bits != U(0u)); }
-MS_INLINE U bits_of(M mask) { return select(mask, U(1u), U(0u)); }
-
-/// Four numbers of each lane.
-struct Fours {
-  F x, y, z, w;
-};
-
-/// Of each four lanes of both, four: those of `b` count from 16.
-template <int i, int j, int k, int l> MS_INLINE F picked(F a, F b) {
-  return __builtin_shufflevector(a, b, i, j, k, l, i + 4, j + 4, k + 4, l + 4, i + 8, j + 8, k + 8, l + 8, i + 12,
-                                 j + 12, k + 12, l + 12);
-}
-
-/// Within each four lanes, rows become columns; it is its own inverse.
-MS_INLINE Fours transposed(const Fours& f) {
-  F xy = picked<0, 16, 1, 17>(f.x, f.y), zw = picked<0, 16, 1, 17>(f.z, f.w);
-  F xy2 = picked<2, 18, 3, 19>(f.x, f.y), zw2 = picked<2, 18, 3, 19>(f.z, f.w);
-  return {picked<0, 1, 16, 17>(xy, zw), picked<2, 3, 18, 19>(xy, zw), picked<0, 1, 16, 17>(xy2, zw2),
-          picked<2, 3, 18, 19>(xy2, zw2)};
-}
-
-using Four = Wide<float, 4>;
-
-/// Those at number `first` of each lane's record.
-template <class Record> MS_INLINE Fours load_fours(Record* const (&records)[kLanes], size_t first) {
-  auto four = [&](size_t lane) __attribute__((always_inline)) {
-    Four value;
-    __builtin_memcpy(&value, reinterpret_cast<const float*>(records[lane]) + first, sizeof value);
-    return value;
-  };
-  auto every_fourth = [&](size_t lane) __attribute__((always_inline)) {
-    auto low = __builtin_shufflevector(four(lane), four(lane + 4), 0, 1, 2, 3, 4, 5, 6, 7);
-    auto high = __builtin_shufflevector(four(lane + 8), four(lane + 12), 0, 1, 2, 3, 4, 5, 6, 7);
-    return F(__builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15));
-  };
-  return transposed({every_fourth(0), every_fourth(1), every_fourth(2), every_fourth(3)});
-}
-
-template <class Record> MS_INLINE void store_fours(const Fours& fours, Record* const (&records)[kLanes], size_t first) {
-  Fours rows = transposed(fours);
-  auto put = [&](F row, size_t lane) __attribute__((always_inline)) {
-    Four parts[4] = {__builtin_shufflevector(row, row, 0, 1, 2, 3), __builtin_shufflevector(row, row, 4, 5, 6, 7),
-                     __builtin_shufflevector(row, row, 8, 9, 10, 11),
-                     __builtin_shufflevector(row, row, 12, 13, 14, 15)};
-#pragma clang loop unroll(full)
-    for (size_t k = 0; k < 4; ++k)
-      __builtin_memcpy(reinterpret_cast<float*>(records[lane + 4 * k]) + first, &parts[k], sizeof parts[k]);
-  };
-  put(rows.x, 0), put(rows.y, 1), put(rows.z, 2), put(rows.w, 3);
-}
-
-template <class Record> MS_INLINE Vector load_vector(Record* const (&records)[kLanes], size_t first) {
-  Fours f = load_fours(records, first);
-  return {{f.x, f.y, f.z}};
-}
-
-MS_INLINE Fours fours(const Vector& v, F w) { return {v[0], v[1], v[2], w}; }
-
-/// Where members of records lie, as numbers.
-#define AT(record, member) (offsetof(record, member) / sizeof(float))
+using namespace lanes16;
 
 /// Whole quotients, by a division of doubles, which is exact enough for any two integers of 32 bits.
 MS_INLINE U divided(U a, uint32_t b) {
@@ -316,138 +230,21 @@ void surroundings_of(const EnvironmentLight* lights, size_t light_count, float l
   }
 }
 
-MS_INLINE M plays_roulette(const ScatterBlock& b) {
-  return stdlib::to_mask<F>(load(b.bounces) + U(1u) >= U(kRouletteFrom));
+void draw_vertices(ScatterBlock& block, uint32_t light_count) { draw_lights(block, light_count); }
+
+void sample_lights(ScatterBlock& block, const EnvironmentLight* lights, size_t light_count, float lights_in_scene) {
+  light_samples(block, lights, light_count, lights_in_scene);
 }
 
-void draw_vertices(ScatterBlock& b, uint32_t light_count) {
-  Fours carried = load_fours(b.paths, AT(Path, throughput)), drawn = load_fours(b.paths, AT(Path, sampler));
-  store(carried.x, b.throughput[0]), store(carried.y, b.throughput[1]), store(carried.z, b.throughput[2]);
-  store(carried.w, b.eta2);
-  store(drawn.x, b.key), store(drawn.y, b.sample), store(drawn.z, b.segments), store(drawn.w, b.bounces);
-  store(load_fours(b.paths, AT(Path, width)).y, b.spread);
-  Draws<U> draws{load(b.key), load(b.sample)};
-  U first = load(b.segments) * U(kDrawCount) + U(1u);
-  F u, v;
-  if (light_count) {
-    F place = draws.one(first + U(uint32_t(kLightChoice))) * F(float(light_count));
-    U light = bit_cast<U>(convert<I>(place));
-    U last = U(light_count - 1);
-    light = select(stdlib::to_mask<F>(light < last), light, last);
-    store(light, b.light), store(place - convert<F>(bit_cast<I>(light)), b.light_w);
-    draws.two(first + U(uint32_t(kLightPoint)), u, v);
-    store(u, b.light_u), store(v, b.light_v);
-  }
-  draws.two(first + U(uint32_t(kDirection)), u, v);
-  store(u, b.direction_u), store(v, b.direction_v);
-  F survival = F(0.0f);
-  if (any(plays_roulette(b))) survival = draws.one(first + U(uint32_t(kRoulette)));
-  store(survival, b.survival);
+void scatter_diffuse(ScatterBlock& b, const AlbedoTables& albedos) {
+  F zero = F(0.0f), one = F(1.0f);
+  scatter(b, {load(b.color), {{zero, zero, zero}}, one, zero, one, zero}, true, false, albedos);
 }
 
-void sample_lights(ScatterBlock& b, const EnvironmentLight* lights, size_t light_count, float lights_in_scene) {
-  F share = F(lights_in_scene);
-  Fours first = load_fours(b.triangles, AT(LightTriangle, a)), second = load_fours(b.triangles, AT(LightTriangle, b)),
-        third = load_fours(b.triangles, AT(LightTriangle, c)),
-        emitted = load_fours(b.triangles, AT(LightTriangle, emission));
-  M area = less(F(0.0f), emitted.w), sky = truth(load(b.sky));
-  Vector point = load(b.point), zero = {{F(0.0f), F(0.0f), F(0.0f)}};
-  Vector direction = load(b.to_light), radiance = load(b.radiance);
-  F distance = load(b.light_distance), pdf = load(b.light_pdf);
-  if (any(area)) {
-    AreaSample<F> s{{{first.x, first.y, first.z}},
-                    {{second.x, second.y, second.z}},
-                    {{third.x, third.y, third.z}},
-                    load(b.light_u),
-                    load(b.light_v),
-                    first.w,
-                    second.w,
-                    less(F(0.0f), third.w),
-                    zero,
-                    F(0.0f),
-                    F(0.0f)};
-    sample_area(point, s);
-    direction = select<3>(area, s.direction, direction);
-    distance = select(area, s.distance, distance);
-    pdf = select(area, s.pdf / share, pdf);
-    radiance = select<3>(area, {{emitted.x, emitted.y, emitted.z}}, radiance);
-  }
-  if (any(sky)) {
-    Vector to = direction_at_height(load(b.height), load(b.light_v)), sum;
-    F density;
-    surroundings(lights, light_count, to, sum, density);
-    direction = select<3>(sky, to, direction);
-    distance = select(sky, stdlib::infinity<F>(), distance);
-    pdf = select(sky, density / share, pdf);
-    radiance = select<3>(sky, sum, radiance);
-  }
-  store(direction, b.to_light), store(radiance, b.radiance);
-  store(distance, b.light_distance), store(pdf, b.light_pdf);
-}
-
-/// Where rays in a direction leave the surface.
-MS_INLINE Vector origin(const ScatterBlock& b, const Vector& geometric, const Vector& direction) {
-  F side = select(less(dot(direction, geometric), F(0.0f)), F(-1.0f), F(1.0f));
-  return load(b.point) + geometric * (load(b.offset) * side);
-}
-
-/// The light, seen from here.
-MS_INLINE void light_diffuse(ScatterBlock& b, const DiffuseLobe<F>& lobe, const Vector& color, M reflects) {
-  F zero = F(0.0f);
-  Vector in = load(b.to_light);
-  F light_pdf = load(b.light_pdf), distance = load(b.light_distance);
-  F share = lobe.share(in, dot(in, lobe.geometric));
-  F weight = select(truth(load(b.delta)), F(1.0f), power_heuristic(light_pdf, lobe.density(in))) / light_pdf;
-  Vector contribution = times(times(load(b.throughput), color * share), load(b.radiance)) * weight;
-  auto black = equal(contribution[0], zero) & equal(contribution[1], zero) & equal(contribution[2], zero);
-  store(bits_of(reflects & less(zero, light_pdf) & less(zero, share) & !black), b.lit);
-  // The end stops short of the light's own surface.
-  F far = select(equal(distance, stdlib::infinity<F>()), distance, distance * F(kShadowReach) - load(b.offset));
-  Shadow* shadows[kLanes];
-  LANES shadows[i] = &b.shadows[i];
-  store_fours(fours(origin(b, lobe.geometric, in), zero), shadows, AT(Shadow, ray.origin));
-  store_fours(fours(in, far), shadows, AT(Shadow, ray.direction));
-  store_fours(fours(contribution, bit_cast<F>(load(b.owner))), shadows, AT(Shadow, contribution));
-}
-
-/// The paths' flags: no mirror, alive or not, and faulted as before.
-MS_INLINE F flags_of(F flags, M survives) {
-  static_assert(offsetof(Path, alive) == offsetof(Path, mirror) + 1 && offsetof(Path, mirror) % 4 == 0);
-  return bit_cast<F>((bit_cast<U>(flags) & U(0xffff0000u)) | select(survives, U(0x100u), U(0u)));
-}
-
-void scatter_diffuse(ScatterBlock& b) {
-  DiffuseLobe<F> lobe{load(b.normal), load(b.geometric), F(0.0f), load(b.scale)};
-  lobe.between = dot(lobe.geometric, lobe.normal);
-  Vector color = load(b.color);
-  F zero = F(0.0f), eta2 = load(b.eta2);
-  M reflects = less(zero, luminance(color));
-  light_diffuse(b, lobe, color, reflects);
-
-  // The way on.
-  Vector direction = lobe.sample(load(b.direction_u), load(b.direction_v));
-  F pdf = lobe.density(direction);
-  Vector onwards = times(load(b.throughput), color * (lobe.share(direction, dot(direction, lobe.geometric)) / pdf));
-  F brightest = max(stdlib::abs(onwards[0]), max(stdlib::abs(onwards[1]), stdlib::abs(onwards[2])));
-  M survives = reflects & less(zero, pdf) & less(zero, brightest);
-  // Russian roulette, by what the path can still bring.
-  M plays = plays_roulette(b);
-  F survival = min(brightest * eta2, F(0.95f));
-  survives = survives & (!plays | less(load(b.survival), survival));
-  F gain = select(plays, F(1.0f) / survival, F(1.0f));
-  onwards = onwards * gain;
-
-  Vector from = origin(b, lobe.geometric, direction);
-  store_fours(fours(from, zero), b.paths, AT(Path, ray.origin));
-  store_fours(fours(direction, stdlib::infinity<F>()), b.paths, AT(Path, ray.direction));
-  store_fours(fours(onwards, eta2), b.paths, AT(Path, throughput));
-  store_fours(fours(from, pdf), b.paths, AT(Path, from));
-  store_fours({bit_cast<F>(load(b.key)), bit_cast<F>(load(b.sample)), bit_cast<F>(load(b.segments)),
-               bit_cast<F>(U(load(b.bounces) + U(1u)))},
-              b.paths, AT(Path, sampler));
-  F flags = load_fours(b.paths, AT(Path, width)).w;
-  store_fours({load(b.width), load(b.spread) + F(kDiffuseSpread), zero, flags_of(flags, survives)}, b.paths,
-              AT(Path, width));
+void scatter_any(ScatterBlock& b, const AlbedoTables& albedos, bool thin) {
+  scatter(b,
+          {load(b.color), load(b.reflectance), load(b.roughness), load(b.metallic), load(b.ior), load(b.transmission)},
+          false, thin, albedos);
 }
 
 MS_INLINE Vector lane_vectors(const float* const (&arrays)[3], size_t at) {
@@ -509,7 +306,7 @@ void bend_normals(const TriangleSource* sources, const Met* met, size_t count, c
 } // namespace
 
 extern const Kernels MS_KERNELS;
-const Kernels MS_KERNELS = {camera_paths,  triangle_points, bend_normals,   surroundings_of,
-                            draw_vertices, sample_lights,   scatter_diffuse};
+const Kernels MS_KERNELS = {camera_paths,  triangle_points, bend_normals,    surroundings_of,
+                            draw_vertices, sample_lights,   scatter_diffuse, scatter_any};
 
 } // namespace moonshade::renderer

@@ -22,49 +22,87 @@ void set(LaneFloats (&lanes)[3], size_t lane, const Vec3& v) {
     lanes[c][lane] = v[c];
 }
 
-/// Points with normals a little apart, a triangle or a sky as light; and the paths that have come there.
+/// Often one of the ends.
+float share(uint32_t a, uint32_t b) {
+  float u = number(a, b);
+  return u < 0.3f ? 0 : u > 0.7f ? 1 : (u - 0.3f) / 0.4f;
+}
+
+/// What blocks are made of.
+enum class Kind { Any, Diffuse, Coated, Metal, Glass, Sheets, Smooth, Mirrors, Count };
+
+SurfaceValues surface(Kind kind, uint32_t at) {
+  const float indices[] = {1, 1.0001f, 1.5f, 3, 100};
+  SurfaceValues v;
+  v.color = Vec3(share(at, 60), number(at, 61), 0.2f);
+  v.roughness = kind == Kind::Smooth ? 0.02f * number(at, 62) : share(at, 62);
+  v.metallic = kind == Kind::Metal ? 1 : share(at, 63);
+  v.transmission = kind == Kind::Glass || kind == Kind::Sheets ? 1 : share(at, 64);
+  v.ior = indices[at * 2654435761u % 5];
+  if (kind == Kind::Any || kind == Kind::Mirrors) v.reflectance = Vec3(share(at, 65), 0.5f * share(at, 66), 0);
+  if (kind == Kind::Coated || kind == Kind::Glass || kind == Kind::Sheets) v.metallic = 0;
+  if (kind == Kind::Coated) v.transmission = 0, v.ior = std::max(v.ior, 1.3f);
+  if (kind == Kind::Diffuse) v.metallic = v.transmission = 0, v.ior = 1;
+  return v;
+}
+
+/// Points of surfaces, a triangle or a sky as light; and the paths that have come there.
 struct Vertices {
+  Kind kind;
   ScatterBlock block{};
   Path paths[kLanes];
   LightTriangle triangles[kLanes];
 
-  explicit Vertices(uint32_t seed, uint32_t bounces = 7) {
-    ScatterBlock& b = block;
-    for (uint32_t i = 0; i < kLanes; ++i) {
-      uint32_t at = seed * 100 + i;
-      Vec3 ng = direction(at, 0), n = glm::normalize(ng + direction(at, 1) * 0.3f);
-      set(b.point, i, direction(at, 2));
-      set(b.normal, i, n), set(b.geometric, i, ng);
-      b.offset[i] = 1e-6f, b.width[i] = 0.01f * float(i), b.owner[i] = 100 + i;
-      set(b.color, i, Vec3(0.7f, number(at, 21), 0.2f));
-      float between = glm::dot(ng, n);
-      b.scale[i] = between < kNormalsAgree ? 1 / horizon_albedo(between) : 1.0f;
-      Path& path = paths[i];
-      path.throughput = Vec3(number(at, 20), 0.5f, 0.25f);
-      path.radiance = Vec3(1, 2, 3);
-      path.segments = 1 + i % 7, path.bounces = i % bounces;
-      path.sampler = Sampler(at, 0, i);
-      path.spread = 0.1f, path.travelled = 1, path.faulted = i % 3 == 0;
-      path.media.ids[0] = i;
-      b.sky[i] = i % 2 == 0;
-      b.height[i] = b.sky[i] ? number(at, 40) * 2 - 1 : std::nanf(""); // others hold anything
-      if (!b.sky[i])
-        triangles[i] = {direction(at, 30) * 3.0f,
-                        0.3f,
-                        direction(at, 31) * 3.0f,
-                        1,
-                        direction(at, 32) * 3.0f,
-                        i % 4 == 1 ? 1.0f : 0.0f,
-                        Vec3(2, 3, 4),
-                        1};
-    }
+  explicit Vertices(uint32_t seed, uint32_t bounces = 7) : kind(Kind(seed % uint32_t(Kind::Count))) {
+    for (uint32_t i = 0; i < kLanes; ++i)
+      set_point(i, seed * 100 + i, bounces);
   }
+  void set_point(uint32_t i, uint32_t at, uint32_t bounces) {
+    ScatterBlock& b = block;
+    Vec3 ng = direction(at, 0), out = direction(at, 50);
+    if (glm::dot(out, ng) < 0) out = -out;
+    if (i % 5 == 0) out = glm::normalize(out - ng * (0.99f * glm::dot(out, ng))); // grazing
+    Vec3 n = i % 4 == 0 ? ng : glm::normalize(ng + direction(at, 1) * (i % 3 ? 0.3f : 2.0f));
+    n = turned_to_viewer(glm::dot(n, ng) < 0 ? -n : n, ng, out);
+    set(b.point, i, direction(at, 2));
+    set(b.normal, i, n), set(b.geometric, i, ng);
+    b.offset[i] = 1e-6f, b.width[i] = 0.01f * float(i), b.owner[i] = 100 + i;
+    SurfaceValues values = surface(kind, at);
+    set(b.color, i, values.color), set(b.reflectance, i, values.reflectance);
+    b.roughness[i] = values.roughness, b.metallic[i] = values.metallic;
+    b.ior[i] = values.ior, b.transmission[i] = values.transmission;
+    b.backface[i] = at / 2 % 2;
+    Path& path = paths[i];
+    path.ray.direction = -out;
+    path.throughput = Vec3(number(at, 20), 0.5f, 0.25f);
+    path.radiance = Vec3(1, 2, 3);
+    path.segments = 1 + i % 7, path.bounces = i % bounces;
+    path.sampler = Sampler(at, 0, i);
+    path.spread = 0.1f, path.travelled = 1, path.faulted = i % 3 == 0;
+    path.media.ids[0] = i;
+    b.sky[i] = i % 2 == 0;
+    b.height[i] = b.sky[i] ? number(at, 40) * 2 - 1 : std::nanf(""); // others hold anything
+    if (!b.sky[i])
+      triangles[i] = {direction(at, 30) * 3.0f,
+                      0.3f,
+                      direction(at, 31) * 3.0f,
+                      1,
+                      direction(at, 32) * 3.0f,
+                      i % 4 == 1 ? 1.0f : 0.0f,
+                      Vec3(2, 3, 4),
+                      1};
+  }
+  bool thin() const { return kind == Kind::Sheets || kind == Kind::Smooth; }
   void scatter(const Kernels& kernels, const EnvironmentLight& sky) {
     for (size_t i = 0; i < kLanes; ++i)
       block.paths[i] = &paths[i], block.triangles[i] = &triangles[i];
     kernels.draw_vertices(block, 2);
     kernels.sample_lights(block, &sky, 1, 2);
-    kernels.scatter_diffuse(block);
+    AlbedoTables albedos = albedo_tables({true, true});
+    if (kind == Kind::Diffuse)
+      kernels.scatter_diffuse(block, albedos);
+    else
+      kernels.scatter(block, albedos, thin());
     for (size_t i = 0; i < kLanes; ++i) // which are no results
       block.paths[i] = nullptr, block.triangles[i] = nullptr;
   }
@@ -79,9 +117,11 @@ EnvironmentLight some_sky() {
   return sky;
 }
 
+constexpr uint32_t kBlocks = 50 * uint32_t(Kind::Count);
+
 TEST(Kernels, GiveTheSameBitsOnEveryInstructionSet) {
   EnvironmentLight sky = some_sky();
-  for (uint32_t seed = 0; seed < 50; ++seed) {
+  for (uint32_t seed = 0; seed < kBlocks; ++seed) {
     std::vector<Vertices> results;
     for (const Kernels* kernels : runnable_kernels()) {
       results.emplace_back(seed);
@@ -95,18 +135,45 @@ TEST(Kernels, GiveTheSameBitsOnEveryInstructionSet) {
   EXPECT_GE(runnable_kernels().size(), 1u);
 }
 
+TEST(Kernels, GiveAPointTheSameBitsWhoeverIsBesideIt) {
+  EnvironmentLight sky = some_sky();
+  for (uint32_t seed = 0; seed < kBlocks; ++seed) {
+    Vertices before(seed), together = before;
+    together.scatter(kernels(), sky);
+    for (size_t i = 0; i < kLanes; ++i) {
+      Vertices alone = before; // as a block with one point is filled
+      for (LaneFloats* lanes = alone.block.point; lanes != &alone.block.transmission + 1; ++lanes)
+        std::fill_n(*lanes, kLanes, (*lanes)[i]);
+      std::fill_n(alone.block.owner, kLanes, before.block.owner[i]);
+      std::fill_n(alone.block.backface, kLanes, before.block.backface[i]);
+      std::fill_n(alone.block.sky, kLanes, before.block.sky[i]);
+      std::fill_n(alone.block.height, kLanes, before.block.height[i]);
+      std::fill_n(alone.paths, kLanes, before.paths[i]);
+      std::fill_n(alone.triangles, kLanes, before.triangles[i]);
+      alone.scatter(kernels(), sky);
+      EXPECT_EQ(std::memcmp(&alone.paths[i], &together.paths[i], sizeof(Path)), 0) << seed << " " << i;
+      EXPECT_EQ(alone.block.lit[i], together.block.lit[i]);
+      EXPECT_EQ(alone.block.straight[i], together.block.straight[i]);
+      if (together.block.lit[i])
+        EXPECT_EQ(std::memcmp(&alone.block.shadows[i], &together.block.shadows[i], sizeof(Shadow)), 0);
+    }
+  }
+}
+
 /// What a kernel has made of one path and its light, against the code for one point.
 struct Scattered {
-  int lit = 0, alive = 0;
+  int lit = 0, alive = 0, straight = 0, refracted = 0, mirrored = 0;
 
   void compare(const Vertices& before, const Vertices& after, size_t i) {
     const ScatterBlock& b = after.block;
     auto vector = [&](const LaneFloats(&lanes)[3]) { return Vec3(lanes[0][i], lanes[1][i], lanes[2][i]); };
     SurfaceValues values;
-    values.color = vector(b.color), values.ior = 1;
-    Vec3 ng = vector(b.geometric), n = vector(b.normal);
-    Bsdf bsdf(values, n, ng, n, {}); // seen along the shading normal, which nothing turns
+    values.color = vector(b.color), values.reflectance = vector(b.reflectance);
+    values.roughness = b.roughness[i], values.metallic = b.metallic[i];
+    values.ior = b.ior[i], values.transmission = b.transmission[i];
     const Path &old = before.paths[i], &path = after.paths[i];
+    Vec3 ng = vector(b.geometric), out = -old.ray.direction;
+    Bsdf bsdf(values, vector(b.normal), ng, out, {bool(b.backface[i]), after.thin(), false});
     Vec3 in = vector(b.to_light);
     auto leaves = [&](const Ray& ray) {
       Vec3 step = ng * (glm::dot(ray.direction, ng) < 0 ? -b.offset[i] : b.offset[i]);
@@ -116,50 +183,65 @@ struct Scattered {
     BsdfValue value = bsdf.evaluate(in);
     if (b.lit[i]) {
       float weight = power_heuristic(b.light_pdf[i], value.pdf) / b.light_pdf[i];
-      Vec3 expected = old.throughput * value.f_cos * vector(b.radiance) * weight;
-      EXPECT_NEAR(glm::length(b.shadows[i].contribution - expected), 0, 1e-5f * glm::length(expected));
+      EXPECT_EQ(b.shadows[i].contribution, old.throughput * value.f_cos * vector(b.radiance) * weight);
       EXPECT_EQ(b.shadows[i].owner, b.owner[i]);
       EXPECT_EQ(b.shadows[i].ray.direction, in);
       EXPECT_EQ(b.shadows[i].ray.far, shadow_end(b.light_distance[i], b.offset[i]));
       leaves(b.shadows[i].ray);
       ++lit;
     } else {
-      EXPECT_TRUE(!(b.light_pdf[i] > 0) || is_black(value.f_cos));
+      EXPECT_TRUE(!(b.light_pdf[i] > 0) || is_black(old.throughput * value.f_cos));
     }
-    BsdfSample next = bsdf.sample(0.5f, old.sampler.two(dimension_of(old.segments, kDirection)));
-    EXPECT_EQ(path.alive, next.valid && !is_black(next.weight));
     EXPECT_EQ(path.radiance, old.radiance);
     EXPECT_EQ(path.faulted, old.faulted);
+    EXPECT_EQ(path.media.ids[0], uint32_t(i));
+    EXPECT_EQ(path.segments, old.segments);
+    EXPECT_EQ(path.sampler.one(5), old.sampler.one(5));
+    float choice = old.sampler.one(dimension_of(old.segments, kLobe));
+    BsdfSample next = bsdf.sample(choice, old.sampler.two(dimension_of(old.segments, kDirection)));
+    bool goes_on = next.valid && !is_black(next.weight);
+    EXPECT_EQ(b.straight[i], goes_on && next.straight);
+    if (goes_on) {
+      EXPECT_EQ(path.throughput, old.throughput * next.weight);
+      EXPECT_EQ(path.eta2, old.eta2 * next.eta2);
+    }
+    if (b.straight[i]) {
+      EXPECT_EQ(std::memcmp(&path.from, &old.from, sizeof(Path) - offsetof(Path, from)), 0);
+      EXPECT_EQ(path.ray.direction, old.ray.direction);
+      ++straight;
+      return;
+    }
+    EXPECT_EQ(path.alive, goes_on);
     if (!path.alive) return;
     leaves(path.ray);
     EXPECT_EQ(path.ray.direction, next.direction);
     EXPECT_EQ(path.ray.far, kInfinity);
-    EXPECT_NEAR(path.pdf, next.pdf, 1e-6f);
-    EXPECT_NEAR(glm::length(path.throughput - old.throughput * next.weight), 0, 1e-5f);
+    EXPECT_EQ(path.pdf, next.pdf);
     EXPECT_EQ(path.from, path.ray.origin);
-    EXPECT_EQ(path.segments, old.segments);
     EXPECT_EQ(path.bounces, old.bounces + 1);
     EXPECT_EQ(path.width, b.width[i]);
-    EXPECT_EQ(path.spread, old.spread + kDiffuseSpread);
+    EXPECT_EQ(path.spread, old.spread + next.spread);
     EXPECT_EQ(path.travelled, 0);
-    EXPECT_EQ(path.media.ids[0], uint32_t(i));
-    EXPECT_FALSE(path.mirror);
-    EXPECT_EQ(path.sampler.one(5), old.sampler.one(5));
-    ++alive;
+    EXPECT_EQ(path.mirror, next.mirror);
+    ++alive, refracted += path.eta2 != 1, mirrored += path.mirror;
   }
 };
 
 TEST(Kernels, ScatterAsTheBsdfDoes) {
   Scattered scattered;
   EnvironmentLight sky = some_sky();
-  for (uint32_t seed = 0; seed < 50; ++seed) {
+  for (uint32_t seed = 0; seed < kBlocks; ++seed) {
     Vertices before(seed, 1), after = before; // without a bounce, no roulette
     after.scatter(kernels(), sky);
     for (size_t i = 0; i < kLanes; ++i)
       scattered.compare(before, after, i);
+    if (::testing::Test::HasFailure()) FAIL() << "block " << seed;
   }
-  EXPECT_GT(scattered.lit, 100);
-  EXPECT_GT(scattered.alive, 600);
+  EXPECT_GT(scattered.lit, 1500);
+  EXPECT_GT(scattered.alive, 4500);
+  EXPECT_GT(scattered.straight, 100);
+  EXPECT_GT(scattered.refracted, 300);
+  EXPECT_GT(scattered.mirrored, 1000);
 }
 
 TEST(Kernels, PlacePointsAsGeometryDoes) {

@@ -13,9 +13,7 @@
 // takes on average.
 #pragma once
 
-#include "renderer/materials/diffuse.h"
-#include "renderer/materials/ggx.h"
-#include "renderer/math.h"
+#include "renderer/materials/bsdf_lanes.h"
 
 namespace moonshade::renderer {
 
@@ -27,9 +25,6 @@ struct SurfaceValues {
   Vec3 color{0.8f}, reflectance{0}, emission{0};
   float roughness = 0.5f, metallic = 0, ior = 1.5f, transmission = 0, opacity = 1;
 };
-
-/// Which part of a BSDF is meant.
-enum LobeSet : uint8_t { kDiffuseLobe = 1, kFacetLobe = 2, kMirrorLobe = 4, kAllLobes = 7 };
 
 /// Of which side of what kind of surface, and of what is carried: radiance to a camera, or importance's dual, photons.
 struct SurfaceSide {
@@ -54,10 +49,10 @@ struct BsdfValue {
   float pdf = 0;
 };
 
+/// Of one point: the formulas are bsdf_lanes.h's.
 class Bsdf {
 public:
-  /// All vectors unit; both normals face the viewer `out`. The shading normal is turned just enough for the viewer to
-  /// see its front.
+  /// All vectors unit; both normals face the viewer `out` (turned_to_viewer).
   Bsdf(const SurfaceValues& values, const Vec3& shading_normal, const Vec3& geometric_normal, const Vec3& out,
        SurfaceSide side = {});
 
@@ -72,51 +67,22 @@ public:
   /// Ambient light reflected to the viewer: `around_normal` and `around_mirror` are mean radiances from there.
   Vec3 ambient(const Vec3& around_normal, const Vec3& around_mirror) const;
   /// The diffuse part's colour, weakened by what the coat reflects towards the viewer.
-  Vec3 diffuse_albedo() const { return keep_ * diffuse_ * (1 - coat_albedo_v_); }
+  Vec3 diffuse_albedo() const;
 
   bool has_extent(uint8_t lobes = kAllLobes) const {
-    Probabilities p = probabilities(lobes);
-    return p.diffuse > 0 || (p.facet > 0 && !smooth_);
+    lanes::Bsdf<float>::Lobes p = lanes_.probabilities(lobes);
+    return p.diffuse > 0 || (p.facet > 0 && !smooth());
   }
   bool has(uint8_t lobes) const {
-    Probabilities p = probabilities(lobes);
+    lanes::Bsdf<float>::Lobes p = lanes_.probabilities(lobes);
     return p.diffuse + p.facet + p.mirror > 0;
   }
-  bool smooth() const { return smooth_; }
-  bool transmits() const { return glass_ > 0; }
-  float alpha() const { return alpha_; }
+  bool smooth() const { return lanes_.smooth.bits; }
+  bool transmits() const { return lanes_.any_glass; }
+  float alpha() const { return lanes_.alpha; }
 
 private:
-  struct Probabilities {
-    float mirror, diffuse, facet;
-  };
-  struct Scales {
-    Vec3 metal;
-    float coat, glass;
-  };
-  Probabilities probabilities(uint8_t lobes) const;
-  Scales scales(float cosine, float eta_glass) const;
-  Vec3 reflected(float cosine, const Scales& scales) const;
-  Vec3 transmitted(float cosine, float glass_scale) const;
-  float reflect_share(float cosine) const;
-  void reflect_lobe(const Vec3& in, BsdfValue& value) const;
-  void thin_lobe(const Vec3& in, BsdfValue& value) const;
-  void solid_lobe(const Vec3& in, BsdfValue& value) const;
-  void diffuse_lobe(const Vec3& in, float side, BsdfValue& value) const;
-  float photon_factor(const Vec3& in, float cosine) const;
-  BsdfSample sample_smooth(float probability, float choice) const;
-  bool facet_direction(float choice, const Vec2& u, Vec3& direction) const;
-  Vec3 folded(const Vec3& direction) const { return direction - ng_ * (2 * glm::dot(direction, ng_)); }
-
-  Frame frame_;
-  Vec3 ng_, out_, local_out_;
-  Vec3 reflectance_, keep_, color_, diffuse_, glass_tint_{1};
-  float metal_, coat_, glass_, ior_, eta_, alpha_, n_dot_v_;
-  CoatAlbedo coat_albedo_;
-  float coat_albedo_v_ = 0, diffuse_scale_ = 1, ng_dot_n_ = 1;
-  Scales scales_{};
-  Probabilities weight_{};
-  bool smooth_ = false, thin_ = false, photons_ = false;
+  lanes::Bsdf<float> lanes_;
 };
 
 } // namespace moonshade::renderer
