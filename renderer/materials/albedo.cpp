@@ -11,7 +11,6 @@ namespace moonshade::renderer {
 
 namespace {
 
-using V = lanes::V3<float>;
 using Table = std::vector<float>;
 constexpr int kCosines = AlbedoTables::kCosines, kAlphas = AlbedoTables::kAlphas;
 
@@ -30,37 +29,64 @@ template <typename Measure> void add_rows(Table& table, Measure measure) {
       table.push_back(measure(row_cosine(i), column_alpha(j)));
 }
 
-/// Calls `take(v, h, their cosine)` for visible normals and gives the mean of what it returns.
-template <typename Take> float mean_over_normals(float cosine, float alpha, uint32_t samples, Take take) {
-  V v = {{std::sqrt(1 - cosine * cosine), 0, cosine}};
+// Samples are taken side by side, as many as any processor's registers hold.
+constexpr uint32_t kTogether = 4;
+using F = lanes::Wide<float, int(kTogether)>;
+using V = lanes::V3<F>;
+
+/// Points of the unit disk, from which visible normals are made.
+template <uint32_t samples> struct Disk {
+  F a[samples / kTogether], b[samples / kTogether];
+  Disk() {
+    for (uint32_t k = 0; k < samples; ++k) {
+      float x, y;
+      sample_disk_by_angle((float(k) + 0.5f) / float(samples), unit_float(reverse_bits(k)), x, y);
+      a[k / kTogether][k % kTogether] = x, b[k / kTogether][k % kTogether] = y;
+    }
+  }
+};
+
+/// Facets met from a direction.
+struct Facets {
+  V v;
+  F alpha, lambda;
+  V h; ///< their normals
+  F c; ///< the normals' cosines with `v`
+
+  Facets(float cosine, float of_alpha)
+      : v{{F(std::sqrt(1 - cosine * cosine)), F(0.0f), F(cosine)}}, alpha(of_alpha), lambda(ggx_lambda(v, alpha)) {}
+  /// G2 / G1 of what leaves along `l`.
+  MS_INLINE F leaving(const V& l) const { return (F(1.0f) + lambda) / (F(1.0f) + lambda + ggx_lambda(l, alpha)); }
+  /// Nothing below the surface.
+  MS_INLINE F reflected_above() const {
+    V l = h * (F(2.0f) * c) - v;
+    return lanes::select(lanes::less(F(0.0f), l[2]), leaving(l), F(0.0f));
+  }
+  MS_INLINE F refracted_below(F eta) const {
+    V l = refracted(v, h, c, eta);
+    return lanes::select(lanes::less(l[2], F(0.0f)), leaving(l), F(0.0f));
+  }
+};
+
+/// The mean of what `take` makes of visible normals.
+template <uint32_t samples, typename Take> float mean_over_normals(float cosine, float alpha, Take take) {
+  static const Disk<samples> disk;
+  Facets facets(cosine, alpha);
   double sum = 0;
-  for (uint32_t k = 0; k < samples; ++k) {
-    V h = ggx_sample_visible_normal(v, alpha, (float(k) + 0.5f) / float(samples), unit_float(reverse_bits(k)));
-    sum += take(v, h, lanes::dot(v, h));
+  for (uint32_t k = 0; k < samples / kTogether; ++k) {
+    facets.h = ggx_visible_normal(facets.v, facets.alpha, disk.a[k], disk.b[k]);
+    facets.c = lanes::dot(facets.v, facets.h);
+    F taken = take(facets);
+    for (uint32_t i = 0; i < kTogether; ++i)
+      sum += double(taken[i]);
   }
   return float(sum / samples);
-}
-
-/// G2 / G1 of what leaves along `l`.
-float leaving(const V& v, const V& l, float alpha) {
-  float lambda_v = ggx_lambda(v, alpha);
-  return (1 + lambda_v) / (1 + lambda_v + ggx_lambda(l, alpha));
-}
-/// Nothing below the surface.
-float leaving_above(const V& v, const V& h, float c, float alpha) {
-  V l = h * (2 * c) - v;
-  return l[2] > 0 ? leaving(v, l, alpha) : 0;
-}
-float leaving_below(const V& v, const V& h, float c, float alpha, float eta) {
-  V l = refracted(v, h, c, eta);
-  return l[2] < 0 ? leaving(v, l, alpha) : 0;
 }
 
 Table make_facets() {
   Table table;
   add_rows(table, [](float cosine, float alpha) {
-    return mean_over_normals(cosine, alpha, 256,
-                             [&](const V& v, const V& h, float c) { return leaving_above(v, h, c, alpha); });
+    return mean_over_normals<256>(cosine, alpha, [](const Facets& f) { return f.reflected_above(); });
   });
   return table;
 }
@@ -70,9 +96,8 @@ Table make_coats(const AlbedoTables& tables) {
   for (int k = 0; k < AlbedoTables::kCoats; ++k) {
     float eta = index_at(0, kLargestIndexPlace, k, AlbedoTables::kCoats), f0 = (eta - 1) / (eta + 1);
     add_rows(table, [&](float cosine, float alpha) {
-      float once = mean_over_normals(cosine, alpha, 128, [&](const V& v, const V& h, float c) {
-        return fresnel_dielectric(c, eta) * leaving_above(v, h, c, alpha);
-      });
+      float once = mean_over_normals<128>(
+          cosine, alpha, [&](const Facets& f) { return fresnel_dielectric(f.c, F(eta)) * f.reflected_above(); });
       float all = facet_albedo(tables, cosine, alpha);
       return std::min(1.0f, once * (1 + f0 * f0 * (1 - all) / all));
     });
@@ -99,9 +124,9 @@ Table make_glasses() {
   for (int k = 0; k < AlbedoTables::kGlasses; ++k) {
     float eta = index_at(-kLargestIndexPlace, kLargestIndexPlace, k, AlbedoTables::kGlasses);
     add_rows(table, [&](float cosine, float alpha) {
-      return mean_over_normals(cosine, alpha, 256, [&](const V& v, const V& h, float c) {
-        float f = fresnel_dielectric(c, eta);
-        return f * leaving_above(v, h, c, alpha) + (f < 1 ? (1 - f) * leaving_below(v, h, c, alpha, eta) : 0.0f);
+      return mean_over_normals<256>(cosine, alpha, [&](const Facets& f) {
+        F share = fresnel_dielectric(f.c, F(eta));
+        return share * f.reflected_above() + (F(1.0f) - share) * f.refracted_below(F(eta));
       });
     });
   }

@@ -377,7 +377,9 @@ private:
 
   /// Where a facet chosen by `u` and `v` sends light; false where it would have to bounce again.
   MS_INLINE M facet_direction(L choice, L u, L v, V& direction) const {
-    V h = ggx_sample_visible_normal(local_out, alpha, u, v);
+    L a, b;
+    sample_disk_by_angle(u, v, a, b);
+    V h = ggx_visible_normal(local_out, alpha, a, b);
     L c = dot(local_out, h);
     V l = h * (L(2.0f) * c) - local_out;
     M leaves = less(zero(), l[2]), reflects = M{} | !M{};

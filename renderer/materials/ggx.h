@@ -20,10 +20,10 @@ template <class L> MS_INLINE L ggx_lambda(const lanes::V3<L>& v, stdlib::NonDedu
   return L(0.5f) * (stdlib::sqrt(L(1.0f) + alpha * alpha * tan2) - L(1.0f));
 }
 
-/// A normal as seen from `v` (Heitz 2018).
+/// A normal as seen from `v` (Heitz 2018); `a` and `b` are a point drawn from the unit disk.
 template <class L>
-MS_INLINE lanes::V3<L> ggx_sample_visible_normal(const lanes::V3<L>& v, stdlib::NonDeduced<L> alpha,
-                                                 stdlib::NonDeduced<L> ux, stdlib::NonDeduced<L> uy) {
+MS_INLINE lanes::V3<L> ggx_visible_normal(const lanes::V3<L>& v, stdlib::NonDeduced<L> alpha, stdlib::NonDeduced<L> a,
+                                          stdlib::NonDeduced<L> b) {
   using namespace lanes;
   L zero = L(0.0f), one = L(1.0f);
   V3<L> stretched = unit(V3<L>{{alpha * v[0], alpha * v[1], v[2]}});
@@ -32,11 +32,9 @@ MS_INLINE lanes::V3<L> ggx_sample_visible_normal(const lanes::V3<L>& v, stdlib::
   L length = stdlib::sqrt(squared);
   V3<L> t1 = {{select(tilted, -stretched[1] / length, one), select(tilted, stretched[0] / length, zero), zero}};
   V3<L> t2 = cross(stretched, t1);
-  L sine, cosine, r = stdlib::sqrt(ux);
-  sine_and_cosine_of_turns(uy, sine, cosine);
-  L a = r * cosine, b = r * sine, s = L(0.5f) * (one + stretched[2]);
-  b = (one - s) * stdlib::sqrt(max(one - a * a, zero)) + s * b;
-  V3<L> n = t1 * a + t2 * b + stretched * stdlib::sqrt(max(one - a * a - b * b, zero));
+  L s = L(0.5f) * (one + stretched[2]), left = one - a * a;
+  b = (one - s) * stdlib::sqrt(max(left, zero)) + s * b;
+  V3<L> n = t1 * a + t2 * b + stretched * stdlib::sqrt(max(left - b * b, zero));
   return unit(V3<L>{{alpha * n[0], alpha * n[1], max(n[2], L(1e-6f))}});
 }
 

@@ -28,6 +28,13 @@ template <class L> MS_INLINE void sine_and_cosine_of_turns(L u, L& sine, L& cosi
   cosine = stdlib::select(cosine_down, -b, b);
 }
 
+/// Of the unit disk by angle and radius, the angle in turns.
+template <class L> MS_INLINE void sample_disk_by_angle(L ux, L uy, L& x, L& y) {
+  L r = stdlib::sqrt(ux);
+  sine_and_cosine_of_turns(uy, y, x);
+  x = r * x, y = r * y;
+}
+
 /// Shirley and Chiu's concentric map.
 template <class L> MS_INLINE void sample_disk(L ux, L uy, L& x, L& y) {
   L a = ux * L(2.0f) - L(1.0f), b = uy * L(2.0f) - L(1.0f);
