@@ -16,7 +16,12 @@ uint32_t LightSet::choose(std::span<const float> cumulative, float& u) {
   float low = start_of(index);
   bool found = bool(int(low <= u) & (int(index + 1 == cumulative.size()) | int(u < cumulative[index])));
   if (!found) {
-    index = uint32_t(std::upper_bound(cumulative.begin(), cumulative.end() - 1, u) - cumulative.begin());
+    const float* first = cumulative.data();
+    for (size_t left = cumulative.size() - 1, half; left > 0; left -= half) { // nor which half
+      half = (left + 1) / 2;
+      first += __builtin_unpredictable(first[half - 1] <= u) ? half : 0;
+    }
+    index = uint32_t(first - cumulative.data());
     low = start_of(index);
   }
   float share = cumulative[index] - low;
