@@ -22,6 +22,8 @@ void set(LaneFloats (&lanes)[3], size_t lane, const Vec3& v) {
     lanes[c][lane] = v[c];
 }
 
+bool same_bits(const void* a, const void* b, size_t size) { return std::memcmp(a, b, size) == 0; }
+
 /// Often one of the ends.
 float share(uint32_t a, uint32_t b) {
   float u = number(a, b);
@@ -128,8 +130,8 @@ TEST(Kernels, GiveTheSameBitsOnEveryInstructionSet) {
       results.back().scatter(*kernels, sky);
     }
     for (const Vertices& v : results) {
-      EXPECT_EQ(std::memcmp(&v.block, &results[0].block, sizeof v.block), 0) << seed;
-      EXPECT_EQ(std::memcmp(v.paths, results[0].paths, sizeof v.paths), 0) << seed;
+      EXPECT_TRUE(same_bits(&v.block, &results[0].block, sizeof v.block)) << seed;
+      EXPECT_TRUE(same_bits(v.paths, results[0].paths, sizeof v.paths)) << seed;
     }
   }
   EXPECT_GE(runnable_kernels().size(), 1u);
@@ -151,11 +153,11 @@ TEST(Kernels, GiveAPointTheSameBitsWhoeverIsBesideIt) {
       std::fill_n(alone.paths, kLanes, before.paths[i]);
       std::fill_n(alone.triangles, kLanes, before.triangles[i]);
       alone.scatter(kernels(), sky);
-      EXPECT_EQ(std::memcmp(&alone.paths[i], &together.paths[i], sizeof(Path)), 0) << seed << " " << i;
+      EXPECT_TRUE(same_bits(&alone.paths[i], &together.paths[i], sizeof(Path))) << seed << " " << i;
       EXPECT_EQ(alone.block.lit[i], together.block.lit[i]);
       EXPECT_EQ(alone.block.straight[i], together.block.straight[i]);
       if (together.block.lit[i])
-        EXPECT_EQ(std::memcmp(&alone.block.shadows[i], &together.block.shadows[i], sizeof(Shadow)), 0);
+        EXPECT_TRUE(same_bits(&alone.block.shadows[i], &together.block.shadows[i], sizeof(Shadow)));
     }
   }
 }
@@ -206,7 +208,7 @@ struct Scattered {
       EXPECT_EQ(path.eta2, old.eta2 * next.eta2);
     }
     if (b.straight[i]) {
-      EXPECT_EQ(std::memcmp(&path.from, &old.from, sizeof(Path) - offsetof(Path, from)), 0);
+      EXPECT_TRUE(same_bits(&path.from, &old.from, sizeof(Path) - offsetof(Path, from)));
       EXPECT_EQ(path.ray.direction, old.ray.direction);
       ++straight;
       return;

@@ -27,8 +27,8 @@ AlbedoTables albedo_tables(AlbedoNeeds needs);
 
 /// A place between two entries of `size`, of x from 0 to 1.
 template <class L> struct Between {
-  lanes::Int32<L> low;
-  L share;
+  lanes::Int32<L> low{};
+  L share{};
 
   Between() = default;
   MS_INLINE Between(L x, int size) {
@@ -128,10 +128,10 @@ MS_INLINE L glass_albedo(const AlbedoTables& tables, L cosine, stdlib::NonDeduce
 /// Share that facets of a dielectric seen from outside reflect, scaled as above: what a coat of this roughness and
 /// index (at least 1) reflects.
 template <class L> struct CoatAlbedo {
-  const float* table;
-  lanes::Int32<L> row;
+  const float* table = nullptr;
+  lanes::Int32<L> row{};
   Between<L> alpha, index;
-  L mean; ///< over the hemisphere, weighted by the cosine
+  L mean{}; ///< over the hemisphere, weighted by the cosine
 
   CoatAlbedo() = default;
   MS_INLINE CoatAlbedo(const AlbedoTables& tables, L alpha_of_facets, L ior)

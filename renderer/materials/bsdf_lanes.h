@@ -69,27 +69,26 @@ template <class L> struct Bsdf {
     L share;
   };
 
-  bool thin, photons;
-  AlbedoTables tables;
   V geometric, out;
   Frame<L> frame; ///< around the shading normal
   V local_out, color, reflectance, keep, diffuse, tint;
   L n_dot_v, between; ///< cosines of the shading normal: with `out`, with the geometric normal
   L alpha, ior, eta, metal, coat, glass;
-  L fade_scale; ///< what fading towards the horizon takes on average is given back
-  L coat_at_view;
-  L masked_view, over_view, over_masked_view; ///< 1 + Lambda(out), 1 / (4 n_dot_v), and that masked
+  L fade_scale;                                     ///< what fading towards the horizon takes on average is given back
+  L coat_at_view;                                   ///< what the coat reflects
+  L masked_view{}, over_view{}, over_masked_view{}; ///< 1 + Lambda(out), 1 / (4 n_dot_v), and that masked
   M smooth;
-  bool any_metal, any_coat, any_glass, any_facet;
-  CoatAlbedo<L> coat_albedo;
   Scales scales;
   Lobes weights;
+  CoatAlbedo<L> coat_albedo{};
+  AlbedoTables tables;
+  bool thin, photons, any_metal, any_coat, any_glass, any_facet;
 
   MS_INLINE Bsdf(const SurfaceValues<L>& s, const SurfaceDirections<L>& d, bool is_thin, bool of_photons,
                  const AlbedoTables& albedos)
-      : thin(is_thin), photons(of_photons), tables(albedos), geometric(d.geometric_normal), out(d.out),
-        frame(d.shading_normal), local_out(frame.to_local(d.out)), color(s.color), reflectance(s.reflectance),
-        keep(white() - s.reflectance), ior(s.ior) {
+      : geometric(d.geometric_normal), out(d.out), frame(d.shading_normal), local_out(frame.to_local(d.out)),
+        color(s.color), reflectance(s.reflectance), keep(white() - s.reflectance), ior(s.ior), tables(albedos),
+        thin(is_thin), photons(of_photons) {
     metal = s.metallic;
     glass = (one() - metal) * s.transmission;
     coat = (one() - metal) * (one() - s.transmission);
