@@ -90,10 +90,11 @@ struct Kernels {
   /// What the lights of a block send, of `triangles` and `sky`.
   void (*sample_lights)(ScatterBlock& block, const EnvironmentLight* lights, size_t light_count, float lights_in_scene);
   /// The BSDF of a block, both ways: to the lights, and onwards. Paths that end are not `alive`; of them, nothing but
-  /// radiance and faults is kept. The first is for what is the same with no reflectance, no metal, no transmission and
-  /// an index of 1.
-  void (*scatter_diffuse)(ScatterBlock& block, const AlbedoTables& albedos);
+  /// radiance and faults is kept.
   void (*scatter)(ScatterBlock& block, const AlbedoTables& albedos, bool thin);
+  /// The same where all are Lambert's law and nothing else: without reflectance, metal and transmission, with an index
+  /// of 1.
+  void (*scatter_diffuse)(ScatterBlock& block, const AlbedoTables& albedos);
 };
 
 /// Those that this machine runs, the fastest last.

@@ -236,15 +236,15 @@ void sample_lights(ScatterBlock& block, const EnvironmentLight* lights, size_t l
   light_samples(block, lights, light_count, lights_in_scene);
 }
 
-void scatter_diffuse(ScatterBlock& b, const AlbedoTables& albedos) {
-  F zero = F(0.0f), one = F(1.0f);
-  scatter(b, {load(b.color), {{zero, zero, zero}}, one, zero, one, zero}, true, false, albedos);
-}
-
 void scatter_any(ScatterBlock& b, const AlbedoTables& albedos, bool thin) {
   scatter(b,
           {load(b.color), load(b.reflectance), load(b.roughness), load(b.metallic), load(b.ior), load(b.transmission)},
           false, thin, albedos);
+}
+
+void scatter_diffuse(ScatterBlock& b, const AlbedoTables& albedos) {
+  F zero = F(0.0f), one = F(1.0f);
+  scatter(b, {load(b.color), {{zero, zero, zero}}, one, zero, one, zero}, true, false, albedos);
 }
 
 MS_INLINE Vector lane_vectors(const float* const (&arrays)[3], size_t at) {
@@ -307,6 +307,6 @@ void bend_normals(const TriangleSource* sources, const Met* met, size_t count, c
 
 extern const Kernels MS_KERNELS;
 const Kernels MS_KERNELS = {camera_paths,  triangle_points, bend_normals,    surroundings_of,
-                            draw_vertices, sample_lights,   scatter_diffuse, scatter_any};
+                            draw_vertices, sample_lights,   scatter_any, scatter_diffuse};
 
 } // namespace moonshade::renderer

@@ -1,9 +1,8 @@
-// The diffuse lobe (bsdf.h), written once for one point and for many: Lambert's, fading towards the geometric horizon
-// where shading normals differ from geometric ones.
+// What diffuse light makes of shading normals that differ from geometric ones, written once for one point and for many:
+// normals turned to the viewer, and light that fades towards the geometric horizon.
 #pragma once
 
 #include "renderer/lane_math.h"
-#include "renderer/sampling/warp.h"
 
 namespace moonshade::renderer {
 
@@ -31,36 +30,5 @@ MS_INLINE lanes::V3<L> turned_to_viewer(const lanes::V3<L>& normal, const lanes:
 
 /// By how much the footprint's growth per distance grows.
 inline constexpr float kDiffuseSpread = 0.3f;
-
-template <class L> struct DiffuseLobe {
-  lanes::V3<L> normal, geometric; ///< both to the viewer
-  L between;                      ///< cosine of both
-  L scale;                        ///< 1 / horizon_albedo(between), or 1
-
-  MS_INLINE lanes::V3<L> folded(const lanes::V3<L>& d) const {
-    return d - geometric * (L(2.0f) * lanes::dot(d, geometric));
-  }
-  /// Density of `sample`.
-  MS_INLINE L density(const lanes::V3<L>& in) const {
-    L zero = L(0.0f);
-    return (lanes::max(lanes::dot(in, normal), zero) + lanes::max(lanes::dot(folded(in), normal), zero)) * L(kInvPi);
-  }
-  /// Share of the colour that goes from `in` to the viewer, times the cosine; `side` is its cosine with the geometric
-  /// normal. 0 where one of the normals does not see it.
-  MS_INLINE L share(const lanes::V3<L>& in, L side) const {
-    L cosine = lanes::dot(in, normal);
-    auto lit = lanes::less(L(0.0f), cosine) & lanes::less(L(0.0f), side);
-    L value = L(kInvPi) * cosine * horizon_fade(side, cosine, between) * scale;
-    return lanes::select(lit, value, L(0.0f));
-  }
-  MS_INLINE lanes::V3<L> sample(L u, L v) const {
-    lanes::V3<L> local;
-    sample_cosine_hemisphere(u, v, local[0], local[1], local[2]);
-    lanes::V3<L> d = lanes::Frame<L>(normal).to_world(local);
-    auto below = lanes::less(lanes::dot(d, geometric), L(0.0f));
-    if (lanes::any(below)) d = lanes::select<3>(below, folded(d), d);
-    return lanes::normalize_or(d, geometric);
-  }
-};
 
 } // namespace moonshade::renderer
