@@ -104,6 +104,10 @@ ValueId FunctionBuild::evaluate_kind(const Expr& expr) {
                      });
 }
 
+void FunctionBuild::effects_of(const Expr& expr) {
+  if (expr.kind != ExprKind::Name) evaluate(expr);
+}
+
 FunctionBuild::Values FunctionBuild::evaluate_all(const Expr& expr) {
   if (expr.kind != ExprKind::Call && expr.kind != ExprKind::MethodCall) return {evaluate(expr)};
   const At at(b_, expr.span);
@@ -167,6 +171,7 @@ ValueId FunctionBuild::index(const IndexExpr& expr) {
   if (known.field != nullptr) return table_index(expr);
   if (known.is_dynamic) return dynamic_component(expr);
   if (known.components.empty()) {
+    effects_of(*expr.object);
     if (known.name == NameKind::Constant) return constant(known);
     return kNone; // a function of a library's table
   }
@@ -200,7 +205,7 @@ ValueId FunctionBuild::dynamic_component(const IndexExpr& expr) {
 ValueId FunctionBuild::unary(const UnaryExpr& expr) {
   const ExpressionFact& known = fact(expr);
   if (known.form == OperatorForm::Constant) {
-    if (fact(*expr.operand).type.kind == sema::Type::Kind::Table) evaluate(*expr.operand); // it may have effects
+    effects_of(*expr.operand);
     return constant(known);
   }
   switch (expr.op) {
@@ -225,6 +230,10 @@ ValueId FunctionBuild::unary(const UnaryExpr& expr) {
 
 ValueId FunctionBuild::binary(const BinaryExpr& expr) {
   const ExpressionFact& known = fact(expr);
+  if (known.form == OperatorForm::Constant || known.form == OperatorForm::Parameter) {
+    effects_of(*expr.left);
+    effects_of(*expr.right);
+  }
   if (known.form == OperatorForm::Constant) return constant(known);
   switch (expr.op) {
   case BinaryOp::Or:
@@ -460,6 +469,7 @@ ValueId FunctionBuild::conditional(const BinaryExpr& expr, ValueType type) {
 
 FunctionBuild::Values FunctionBuild::call(const Expr& expr) {
   const auto* method = try_as<MethodCallExpr>(&expr);
+  if (method == nullptr) effects_of(*static_cast<const CallExpr&>(expr).callee);
   const auto args = method != nullptr ? method->args : static_cast<const CallExpr&>(expr).args;
   const ExpressionFact& known = fact(expr);
   if (known.call == CallKind::Parameter) {

@@ -63,6 +63,8 @@ private:
 
   // Expressions (build_expressions.cpp). A value of kNone stands for what has none at run time: functions and strings.
   ValueId evaluate(const syntax::Expr& expr);
+  /// What is known while compiling, a string, a function or a length, may be written as a call that faults or assigns.
+  void effects_of(const syntax::Expr& expr);
   ValueId evaluate_as(const syntax::Expr& expr, ValueType type) { return converted(evaluate(expr), type); }
   /// All values of a list as Lua adjusts it: the last expression gives all its values, the others one each.
   Values evaluate_list(std::span<syntax::Expr* const> exprs);
