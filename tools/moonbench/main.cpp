@@ -74,6 +74,7 @@ int work(const Options& options) {
 } // namespace
 
 int main(int argc, char** argv) {
+  keep_standard_files_apart();
   exit_on_interrupt();
   try {
     const ParsedOptions parsed = parse_options(argc, argv);

@@ -1,6 +1,7 @@
 // moonrender SCENE.lua|MODEL.obj [options] -o IMAGE: one picture, or one for each frame. The work is the library's.
 #include "tools/moonrender/render_picture.h"
 #include "tools/support/exit_status.h"
+#include "tools/support/files.h"
 #include "tools/support/interrupt.h"
 
 #include <csignal>
@@ -35,6 +36,7 @@ int run(const Options& options) {
 
 int main(int argc, char** argv) {
   using namespace moonshade;
+  tools::keep_standard_files_apart();
   tools::exit_on_interrupt();
   std::signal(SIGXFSZ, SIG_IGN); // a file beyond the allowed size is an error of writing, not the end
   moonrender::ParsedOptions parsed = moonrender::parse_options(argc, argv);

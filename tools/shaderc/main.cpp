@@ -62,6 +62,7 @@ int work(const Options& options) {
 } // namespace
 
 int main(int argc, char** argv) {
+  tools::keep_standard_files_apart();
   tools::exit_on_interrupt();
   try {
     const ParsedOptions parsed = parse_options(argc, argv);

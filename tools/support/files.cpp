@@ -53,7 +53,15 @@ std::string write_directly(const std::string& path, const std::string& bytes) {
 
 } // namespace
 
-FileText read_file(const std::string& path) {
+void keep_standard_files_apart() {
+  // The wrong way round, so that whoever reads or writes there gets an error, as from what is closed.
+  constexpr int kModes[] = {O_WRONLY, O_RDONLY, O_RDONLY};
+  for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (fcntl(descriptor, F_GETFD) < 0)
+      static_cast<void>(open("/dev/null", kModes[descriptor])); // the lowest that is free
+}
+
+FileText read_file(const std::string& path, size_t limit) {
   const int descriptor = path == "-" ? dup(STDIN_FILENO) : open(path.c_str(), O_RDONLY);
   if (descriptor < 0) return {"", system_error()};
   FileText file;
@@ -64,6 +72,9 @@ FileText read_file(const std::string& path) {
     if (count < 0) file = {"", system_error()};
     if (count <= 0) break;
     file.text.append(buffer, size_t(count));
+    if (file.text.size() <= limit) continue;
+    file = {"", "larger than " + std::to_string(limit) + " bytes"};
+    break;
   }
   close(descriptor);
   return file;

@@ -8,12 +8,16 @@
 
 namespace moonshade::tools {
 
+/// First of all: where a program is started with standard input, output or error closed, the next file that it opens
+/// would take the number, and messages would go into an image.
+void keep_standard_files_apart();
+
 struct FileText {
   std::string text;
   std::string error; ///< why it cannot be read; empty where it can
 };
-/// Reads the file; "-" is standard input.
-FileText read_file(const std::string& path);
+/// Reads the file; "-" is standard input. One of more than `limit` bytes, or without an end, is an error.
+FileText read_file(const std::string& path, size_t limit = size_t{64} << 20);
 
 /// Writes to a temporary file beside `path` and renames it: the file is there whole or not at all. "-" is standard
 /// output. Gives the error, or an empty text.

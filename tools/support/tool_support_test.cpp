@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <fcntl.h>
 #include <filesystem>
 #include <fstream>
 #include <unistd.h>
@@ -88,6 +89,26 @@ TEST_F(Files, CsvTellsWhyItCannotBeRead) {
   CsvReader csv(path("missing.csv"));
   EXPECT_FALSE(csv.next());
   EXPECT_EQ(csv.error(), "No such file or directory");
+}
+
+TEST_F(Files, TakeNoNumberOfAClosedStandardFile) {
+  const auto in_child = [&] {
+    for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+      close(descriptor);
+    keep_standard_files_apart();
+    const int file = open(path("image").c_str(), O_WRONLY | O_CREAT, 0600);
+    char byte = 'x';
+    const bool fail_still =
+        write(STDOUT_FILENO, &byte, 1) < 0 && write(STDERR_FILENO, &byte, 1) < 0 && read(STDIN_FILENO, &byte, 1) < 0;
+    _exit(file > STDERR_FILENO && fail_still ? 0 : 1);
+  };
+  EXPECT_EXIT(in_child(), testing::ExitedWithCode(0), "");
+}
+
+TEST_F(Files, ReadsNoMoreThanItsLimit) {
+  EXPECT_EQ(read_file(put("a", std::string(1000, 'x')), 1000).error, "");
+  EXPECT_EQ(read_file(path("a"), 999).error, "larger than 999 bytes");
+  EXPECT_EQ(read_file("/dev/zero", 1 << 20).error, "larger than 1048576 bytes");
 }
 
 TEST_F(Files, WritesWholeOrNotAtAll) {
