@@ -106,6 +106,7 @@ public:
     archive.expect<uint32_t>(uint32_t(crop_.height));
     uint32_t samples = film_->samples();
     archive.value(samples);
+    if (samples > settings_.samples) return archive.fail();
     film_->set_samples(samples);
     for (auto [data, size] : film_->blocks())
       archive.bytes(data, size);

@@ -1,15 +1,11 @@
 // The reader of images: a pyramid of levels whose texels are finite, or an error. The first byte chooses the kind of
 // file; what follows is the file.
 #include "runtime/images/pyramid.h"
+#include "tests/fuzz/scratch.h"
 #include "tests/fuzz/target.h"
 
 #include <array>
 #include <cmath>
-#include <cstdio>
-#include <filesystem>
-#include <fstream>
-
-#include <unistd.h>
 
 namespace moonshade {
 namespace {
@@ -18,24 +14,6 @@ using fuzz::require;
 
 constexpr uint64_t kMostBytes = uint64_t(64) << 20;
 constexpr std::array<const char*, 7> kEndings = {".png", ".jpg", ".exr", ".tif", ".hdr", ".tga", ".bmp"};
-
-/// A file that is deleted when the program ends.
-class Scratch {
-public:
-  explicit Scratch(const char* ending)
-      : path_((std::filesystem::temp_directory_path() / ("moonshade-fuzz-" + std::to_string(::getpid()))).string() +
-              ending) {}
-  ~Scratch() { std::remove(path_.c_str()); }
-  Scratch(const Scratch&) = delete;
-  Scratch& operator=(const Scratch&) = delete;
-  const std::string& write(std::string_view bytes) const {
-    std::ofstream(path_, std::ios::binary | std::ios::trunc).write(bytes.data(), std::streamsize(bytes.size()));
-    return path_;
-  }
-
-private:
-  std::string path_;
-};
 
 void check_texel(const Pyramid& image, int level, int x, int y) {
   for (const float number : image.texel(level, x, y))
@@ -68,7 +46,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   if (kind == kEndings.size()) {
     error = image.decode(std::string(bytes), raw, kMostBytes);
   } else {
-    const Scratch scratch(kEndings[kind]);
+    const fuzz::Scratch scratch(kEndings[kind]);
     error = image.read(scratch.write(bytes), raw, kMostBytes);
   }
   if (error.empty()) check_image(image);
