@@ -73,7 +73,7 @@ void Generator::closure_maker() {
   end_function(made, before);
   made.effect = beyond;
   made.results.clear();
-  if (inner.effect == home) inner.effect = INT_MAX - 1; // state of its own: the level of the instance
+  if (inner.effect == home) inner.effect = kOwnState;
   made.closure = std::make_shared<Function>(inner);
   functions_.push_back(made);
   --nesting_;
@@ -112,7 +112,7 @@ void Generator::object_maker() {
     line("return " + result_list());
     end_function(field, inside);
     close("end,");
-    if (field.effect == home) field.effect = INT_MAX - 1;
+    if (field.effect == home) field.effect = kOwnState;
     fields.push_back(field);
   }
   line("k = " + parameter);
@@ -151,7 +151,7 @@ void Generator::closure_instance() {
   line("local " + name + " = " + call_text(maker, 2));
   const auto placed = [&](Function instance, const std::string& instance_name) {
     instance.name = instance_name;
-    if (instance.effect == INT_MAX - 1) instance.effect = level();
+    if (instance.effect == kOwnState) instance.effect = level();
     functions_.push_back(instance);
   };
   if (maker.closure != nullptr) placed(*maker.closure, name);

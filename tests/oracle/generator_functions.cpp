@@ -29,6 +29,27 @@ std::string Generator::call(T type, int depth) {
   return callee.results.size() > 1 ? "(" + text + ")" : text;
 }
 
+/// A closure called where it is made: mk(a)(b).
+std::string Generator::call_at_once(T type, int depth) {
+  std::vector<const Function*> fits;
+  for (const Function& maker : functions_) {
+    if (maker.closure == nullptr || maker.effect != kNoEffect) continue;
+    const Function& made = *maker.closure;
+    const bool assigns_its_own = made.effect == kNoEffect || made.effect == kOwnState;
+    const bool is_fit = assigns_its_own && made.table == nullptr && made.same < 0 &&
+                        made.results == std::vector<T>{type} &&
+                        std::ranges::none_of(made.parameters, &Parameter::is_mutated);
+    if (is_fit) fits.push_back(&maker);
+  }
+  if (fits.empty() || calls_ >= kMaxCalls) return {};
+  ++calls_;
+  const Function maker = *random_.pick(fits);
+  Function made = *maker.closure;
+  made.name = call_text(maker, depth);
+  made.effect = kNoEffect;
+  return call_text(made, depth);
+}
+
 std::string Generator::call_text(const Function& callee, int depth) {
   if (callee.effect != kNoEffect) note_effect(callee.effect);
   std::string text = callee.name + "(";

@@ -82,7 +82,8 @@ private:
 
   // ---- functions (generator_functions.cpp, generator_closures.cpp) ----
   bool can_call(const Function& callee, bool is_statement) const;
-  std::string call(T type, int depth); ///< empty where there is none
+  std::string call(T type, int depth);         ///< empty where there is none
+  std::string call_at_once(T type, int depth); ///< likewise
   std::string call_text(const Function& callee, int depth);
   std::string argument(const Parameter& parameter, int depth);
   std::string function_argument(const std::vector<T>& signature, int depth);

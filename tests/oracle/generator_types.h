@@ -58,6 +58,8 @@ struct TableVariable {
 };
 
 constexpr int kNoEffect = INT_MAX;
+/// Of a closure that assigns what its maker declared, and no more: the level is that of the instance.
+constexpr int kOwnState = INT_MAX - 1;
 
 struct Function;
 

@@ -118,6 +118,8 @@ std::string Generator::expression(T type, int depth) {
   if (random_.chance(0.14))
     if (std::string text = call(type, depth); !text.empty()) return text;
   if (random_.chance(0.1))
+    if (std::string text = call_at_once(type, depth); !text.empty()) return text;
+  if (random_.chance(0.1))
     if (std::string text = element(type, false, depth); !text.empty()) return text;
   switch (type) {
   case T::B:
@@ -149,7 +151,7 @@ std::string Generator::binary(const char* op, T left, T right, int depth) {
 std::string Generator::boolean(int depth) {
   static const std::vector<const char*> comparisons = {"<", "<=", ">", ">=", "==", "~="};
   const char* op = random_.pick(comparisons);
-  switch (random_.below(11)) {
+  switch (random_.below(12)) {
   case 0:
     return "not " + expression(T::B, depth - 1);
   case 1:
@@ -175,6 +177,8 @@ std::string Generator::boolean(int depth) {
   }
   case 8:
     return library(T::B, depth);
+  case 9: // known while compiling, but for the faults inside
+    return "(math.type(" + expression(random_.chance(0.5) ? T::I : T::N, depth - 1) + ") == \"integer\")";
   default:
     return binary(op, T::N, T::N, depth);
   }
