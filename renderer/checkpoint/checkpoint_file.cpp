@@ -169,11 +169,12 @@ void sync_folder(const std::string& path) {
 std::string checkpoint_path(const std::string& image) { return image + ".checkpoint"; }
 
 std::string write_checkpoint(const std::string& path, const Identity& identity, RenderState& state) {
-  // One name, so that what a killed render leaves is overwritten by the next one.
+  // One name, so that what a killed render leaves is overwritten by the next one; but in a folder of many users a link
+  // of that name may be another's.
   std::string temporary = path + ".new";
   int error = 0;
   {
-    Descriptor file{::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)};
+    Descriptor file{::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_CLOEXEC, 0666)};
     if (file.number < 0) return path + ": " + std::strerror(errno);
     Writer writer(file.number);
     Identity copy = identity;

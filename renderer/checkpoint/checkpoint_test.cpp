@@ -122,6 +122,14 @@ TEST(Checkpoint, KeepsTheOldOneWhereTheNewOneCannotBeWritten) {
   EXPECT_THAT(write_checkpoint(folder / "none/c", kIdentity, old), HasSubstr("none/c: No such file"));
 }
 
+TEST(Checkpoint, IsNotWrittenThroughALink) {
+  TemporaryFolder folder;
+  Numbers numbers(10);
+  std::filesystem::create_symlink(folder.write("precious", "kept"), folder / "c.new");
+  EXPECT_THAT(write_checkpoint(folder / "c", kIdentity, numbers), HasSubstr("symbolic links"));
+  EXPECT_EQ(read_file(folder / "precious").text, "kept");
+}
+
 TEST(Identity, FollowsEveryFileAndOption) {
   TemporaryFolder folder;
   Scene scene;
