@@ -85,6 +85,39 @@ TEST_P(NoiseContinuity, HoldsForValueAndSlopeOverBorders) {
 
 INSTANTIATE_TEST_SUITE_P(Families, NoiseContinuity, testing::ValuesIn(kNoises), test_name);
 
+/// Values at neighbouring points of the lattice know nothing of each other, along whichever axis.
+TEST(ValueNoise, HasIndependentNeighbours) {
+  constexpr int kPoints = 4000, kLag = 4;
+  const auto check = [&](const char* name, auto value_at) {
+    double squares = 0, products[kLag + 1] = {};
+    double row[kPoints];
+    for (int i = 0; i < kPoints; ++i)
+      row[i] = value_at(double(i - 100));
+    for (int i = kLag; i < kPoints; ++i) {
+      squares += row[i] * row[i];
+      for (int lag = 1; lag <= kLag; ++lag)
+        products[lag] += row[i] * row[i - lag];
+    }
+    for (int lag = 1; lag <= kLag; ++lag)
+      EXPECT_LT(std::abs(products[lag] / squares), 0.1) << name << ", " << lag << " steps apart";
+  };
+  check("of a number", [](double x) { return valuenoise<double>(x); });
+  check("periodic", [](double x) { return pvaluenoise<double>(x, 8192.0); });
+  check("one of three", [](double x) { return vvaluenoise<double>(x)[1]; });
+  for (int axis = 0; axis < 4; ++axis) {
+    const auto along = [&]<int N>(std::integral_constant<int, N>) {
+      return [axis](double x) {
+        V<N> p = {};
+        p[axis] = x;
+        return valuenoise<double>(p);
+      };
+    };
+    if (axis < 2) check("of the plane", along(std::integral_constant<int, 2>()));
+    if (axis < 3) check("of space", along(std::integral_constant<int, 3>()));
+    check("of four coordinates", along(std::integral_constant<int, 4>()));
+  }
+}
+
 // Periods -------------------------------------------------------------------------------------------------------------
 
 TEST(PeriodicNoise, RepeatsAfterWholePeriodsAndNotBefore) {

@@ -19,6 +19,10 @@ template <class L> MS_INLINE L lattice_value(UInt32<L> hash) {
   return convert<L>(bit_cast<Int32<L>>(hash)) * constant<L>(0x1.ffffp-32);
 }
 
+/// The last step of a lattice point's hash. Along a row of points that differ in one coordinate alone squares go up and
+/// down like a parabola: that takes more.
+template <int N, class U> MS_INLINE U mixed(U hash) { return N == 1 ? mix_bits(hash) : lattice_hash(hash); }
+
 /// A cell: the hashes of its corners, the place in it, and interpolation over the corners, from the axis `Axis` on.
 template <class L, int N> struct ValueCell {
   UInt32<L> parts[N][2];
@@ -36,7 +40,7 @@ template <class L, int N> struct ValueCell {
   }
   template <class T, int Axis = 0> MS_INLINE T value(int which, UInt32<L> hash = UInt32<L>(0u)) const {
     if constexpr (Axis == N) {
-      return T{lattice_value<L>(other_hash(lattice_hash(hash), which))};
+      return T{lattice_value<L>(other_hash(mixed<N>(hash), which))};
     } else {
       const T low = value<T, Axis + 1>(which, hash ^ parts[Axis][0]),
               high = value<T, Axis + 1>(which, hash ^ parts[Axis][1]);
