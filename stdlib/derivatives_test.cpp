@@ -164,7 +164,7 @@ TEST(Derivatives, AreTheLimitsOfDifferences) {
       }
     }
     EXPECT_EQ((1 + column) * row.result_count, derivative.function.result_count);
-    EXPECT_LT(worst, 2e-6) << derivative.function.symbol;
+    EXPECT_LT(worst, 4e-6) << derivative.function.symbol; // a slope that bends within the step is that far off
     EXPECT_GT(compared, 3 * column * components * kPoints / 4) << derivative.function.symbol;
   }
 }

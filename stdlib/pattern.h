@@ -2,8 +2,9 @@
 // square box filter of that width sees: at width 0 the pattern itself, its mean where the width is great. checker,
 // stripes, tiles, brick, dots and hexagons are filtered exactly (brick in raking bonds where the footprint is no wider
 // than a row; beyond, rows of even and of odd number stand for all), but for a blend where a wide footprint's
-// integral takes over from a narrow one's edges; voronoi by its nearest three borders, quarter by quarter. How near
-// that comes, pattern_test.cpp measures.
+// integral takes over from a narrow one's edges; voronoi by its nearest three borders, in the plane quarter by quarter.
+// How near that comes, pattern_test.cpp measures. How a square lies in space its width does not tell: solids give what
+// squares turned all ways see, on the average (checker what a cube sees).
 // Where a pattern has cells, it gives three numbers: the value, a random number in [0, 1) that is the cell's own (not
 // filtered), and the distance to the cell's edge, positive inside. NaN coordinates give NaN; beyond 2^22 floats leave
 // no room for a fraction.
@@ -463,13 +464,15 @@ template <class L, int N> MS_INLINE Cell<L> voronoi(Vec<N, L> p, L width, L bord
   // The share of the cells' inside: as of squares or cubes, whatever the jitter, but for what samples show of space.
   L open = one - saturate(border), mean = open * open;
   if constexpr (N == 3) mean = mean * open * madd(border * saturate(jitter * constant<L>(3)), 0.16, one);
-  L value = N == 2 ? toward_mean(near, mean, width, 0.9, 2.4) : toward_mean(near, mean, width, 0.4, 1.6);
-  ValueLane<L> nothing = value_lane(p[0]) - value_lane(p[0]); // 0, or NaN
-#pragma clang loop unroll(full)
-  for (int i = 1; i < N; ++i)
-    nothing = nothing + (value_lane(p[i]) - value_lane(p[i]));
-  value = value + without_slope<L>(nothing);
-  return {value, id, edge};
+  L value;
+  if constexpr (N == 2) {
+    value = toward_mean(near, mean, width, 0.9, 2.4);
+  } else {
+    // Three borders are fewer than a wide footprint sees: it is lighter than it should be by this much, by samples.
+    L missed = (one - mean) * clamp(madd(width, 0.43, constant<L>(-0.43 * 0.5)), zero, constant<L>(0.45));
+    value = max(toward_mean(near - missed, mean, width, 1.2, 2.4), zero);
+  }
+  return {value + nothing_of(p), id, edge};
 }
 
 } // namespace moonshade::stdlib

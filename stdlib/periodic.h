@@ -7,6 +7,7 @@
 
 #include "stdlib/dual.h"
 #include "stdlib/numbers.h"
+#include "stdlib/vec.h"
 
 namespace moonshade::stdlib {
 
@@ -107,6 +108,15 @@ template <class L> MS_INLINE L pulse_of(L x, L duty, L ramp, L width) {
   } else {
     return filtered_pulse(x, duty, ramp, width);
   }
+}
+
+/// 0, or NaN where a coordinate is NaN or infinity: for what the point no longer shows in.
+template <class L, int N> MS_INLINE L nothing_of(const Vec<N, L>& p) {
+  ValueLane<L> nothing = value_lane(p[0]) - value_lane(p[0]);
+#pragma clang loop unroll(full)
+  for (int i = 1; i < N; ++i)
+    nothing = nothing + (value_lane(p[i]) - value_lane(p[i]));
+  return without_slope<L>(nothing);
 }
 
 } // namespace moonshade::stdlib
