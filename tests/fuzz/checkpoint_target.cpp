@@ -46,7 +46,7 @@ struct Small {
         "camera{ from = {0, 0, 4} } light{ type = 'sky' } sphere{ material = material{ shader = '" + shader.path() +
         "' } } render{ width = 5, height = 3, depth = 2, samples = " + std::to_string(samples) + " }";
     SceneReading reading = parse_lua_scene("small.lua", text, folders);
-    require(reading.scene.has_value(), reading.error);
+    if (!reading.scene) fuzz::fail(reading.error);
     FaultyShaders shaders;
     Preparation preparation = prepare(std::move(*reading.scene), shaders);
     require(preparation.prepared != nullptr, preparation.error);
