@@ -306,7 +306,7 @@ void bend_normals(const TriangleSource* sources, const Met* met, size_t count, c
 } // namespace
 
 extern const Kernels MS_KERNELS;
-const Kernels MS_KERNELS = {camera_paths,  triangle_points, bend_normals,    surroundings_of,
-                            draw_vertices, sample_lights,   scatter_any, scatter_diffuse};
+const Kernels MS_KERNELS = {camera_paths,  triangle_points, bend_normals, surroundings_of,
+                            draw_vertices, sample_lights,   scatter_any,  scatter_diffuse};
 
 } // namespace moonshade::renderer

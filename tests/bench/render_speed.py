@@ -106,6 +106,8 @@ class Bench:
         self.heading()
         for scene in sorted(glob.glob(os.path.join(ROOT, 'shaders', '*.scene.lua'))):
             self.row(os.path.basename(scene)[:-len('.scene.lua')], self.run(scene, '--size=640x360'))
+        glass = os.path.join(ROOT, 'shaders', 'glass.scene.lua')
+        self.row('glass, by paths', self.run(glass, '--size=640x360', '--integrator=path'))
 
     def backends(self):
         print('\n| scene | jit, s | interp, s | ratio | of shaders alone |\n|---|---|---|---|---|')
