@@ -121,7 +121,7 @@ std::vector<std::vector<double>> differences(const LibraryFunction& row, std::ve
       const size_t at = c * kPoints + point;
       const double narrow = (above[at] - below[at]) / (2 * h);
       const double wide = (far_above[at] - far_below[at]) / (4 * h);
-      const bool smooth = std::abs(narrow - wide) < 1e-5 * (1 + std::abs(narrow));
+      const bool smooth = std::abs(narrow - wide) < 5e-6 * (1 + std::abs(narrow));
       result[c][point] = smooth ? (4 * narrow - wide) / 3 : std::nan("");
     }
   return result;
@@ -164,7 +164,7 @@ TEST(Derivatives, AreTheLimitsOfDifferences) {
       }
     }
     EXPECT_EQ((1 + column) * row.result_count, derivative.function.result_count);
-    EXPECT_LT(worst, 4e-6) << derivative.function.symbol; // a slope that bends within the step is that far off
+    EXPECT_LT(worst, 2e-6) << derivative.function.symbol;
     EXPECT_GT(compared, 3 * column * components * kPoints / 4) << derivative.function.symbol;
   }
 }
