@@ -201,6 +201,7 @@ template <DualLane To, PlainLane From> MS_INLINE To convert(From value) {
   return To::of(convert<typename To::Lane>(value));
 }
 template <DualLane D> MS_INLINE UInt32<D> hash_bits(D x) { return hash_bits(x.v); }
+template <DualLane D> MS_INLINE UInt32<D> mixed_bits(D x) { return mixed_bits(x.v); }
 template <DualLane D> MS_INLINE UInt32<D> lattice(D i) { return lattice(i.v); }
 
 /// The lane of the value alone, and a lane without derivatives made of one.

@@ -24,11 +24,22 @@ template <class L> MS_INLINE L unit_number(UInt32<L> bits) {
   return convert<L>(convert<Int32<L>>(bits >> 8u)) * constant<L>(0x1p-24);
 }
 
-/// The bits that a number is hashed by: those of its float; -0 and every NaN as 0, by one comparison.
+/// Whether a float is hashed by its bits: -0 and every NaN are as 0, by one comparison.
+template <class F> MS_INLINE auto has_own_bits(F x) {
+  F zero = F(0.0f);
+  return less(x, zero) | less(zero, x);
+}
+
+/// The bits that a number is hashed by: those of its float.
 template <class L> MS_INLINE UInt32<L> hash_bits(L x) {
-  using F = Wide<float, width_of<L>>;
-  F rounded = convert<F>(x), zero = F(0.0f);
-  return select(less(rounded, zero) | less(zero, rounded), bit_cast<UInt32<L>>(rounded), UInt32<L>(0u));
+  auto rounded = convert<Wide<float, width_of<L>>>(x);
+  return select(has_own_bits(rounded), bit_cast<UInt32<L>>(rounded), UInt32<L>(0u));
+}
+
+/// The same, mixed: 0 stays 0, so that nothing waits for the comparison.
+template <class L> MS_INLINE UInt32<L> mixed_bits(L x) {
+  auto rounded = convert<Wide<float, width_of<L>>>(x);
+  return select(has_own_bits(rounded), mix_bits(bit_cast<UInt32<L>>(rounded)), UInt32<L>(0u));
 }
 
 /// An integer that is a float is hashed as that number (1 and 1.0 are equal in Lua), any other by its 64 bits.
@@ -40,12 +51,12 @@ template <class L> MS_INLINE UInt32<L> hash_bits_of_integer(Int<L> k) {
   return select(is_float, bit_cast<UInt32<L>>(rounded), mix_bits(high + 0x9e3779b9u) ^ low);
 }
 
-template <class L> MS_INLINE L hash(L x) { return unit_number<L>(mix_bits(hash_bits(x))); }
+template <class L> MS_INLINE L hash(L x) { return unit_number<L>(mixed_bits(x)); }
 template <class L> MS_INLINE L hash_of_integer(Int<L> k) {
   return unit_number<L>(mix_bits(hash_bits_of_integer<L>(k)));
 }
 template <class L, int N> MS_INLINE L hash(Vec<N, L> v) {
-  UInt32<L> sum = mix_bits(hash_bits(v[0]));
+  UInt32<L> sum = mixed_bits(v[0]);
 #pragma clang loop unroll(full)
   for (int i = 1; i < N; ++i)
     sum = mix_bits(sum * 0x9e3779b1u + hash_bits(v[i]));
