@@ -164,7 +164,7 @@ const std::array<std::vector<double>, 3>& in_double(const Grid& grid) {
 
 double share(std::vector<double> sorted, double part) {
   std::ranges::sort(sorted);
-  return sorted[static_cast<size_t>(part * static_cast<double>(sorted.size() - 1) + 0.5)];
+  return sorted[static_cast<size_t>(std::lround(part * static_cast<double>(sorted.size() - 1)))];
 }
 
 } // namespace
@@ -175,12 +175,12 @@ double Contestant::spread() const { return (share(seconds, 0.75) - share(seconds
 Lineup line_up(const Workload& workload, const Grid& grid) {
   Lineup lineup;
   const std::string path = std::string(MOONSHADE_BENCH_SHADERS "/") + workload.shader;
-  tools::FileText file = tools::read_file(path);
+  const tools::FileText file = tools::read_file(path);
   if (!file.error.empty()) {
     lineup.error = path + ": " + file.error;
     return lineup;
   }
-  const CheckedShader shader(path, std::move(file.text), {workload.entry});
+  const CheckedShader shader(path, file.text, {workload.entry});
   if (!shader.ok()) {
     std::ostringstream text;
     print_text(shader.diagnostics(), shader.sources(), text, false);
