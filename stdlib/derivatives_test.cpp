@@ -107,7 +107,7 @@ std::vector<double> numbers_of(std::span<const Column> columns) {
 /// other's) and point; NaN where the row is not smooth.
 std::vector<std::vector<double>> differences(const LibraryFunction& row, std::vector<Column> arguments,
                                              unsigned parameter, unsigned component) {
-  const double h = 1e-5;
+  const double h = 5e-6;
   const Column original = arguments[parameter];
   const auto at = [&](double offset) {
     for (unsigned point = 0; point < kPoints; ++point)
@@ -121,7 +121,7 @@ std::vector<std::vector<double>> differences(const LibraryFunction& row, std::ve
       const size_t at = c * kPoints + point;
       const double narrow = (above[at] - below[at]) / (2 * h);
       const double wide = (far_above[at] - far_below[at]) / (4 * h);
-      const bool smooth = std::abs(narrow - wide) < 5e-6 * (1 + std::abs(narrow));
+      const bool smooth = std::abs(narrow - wide) < 1e-5 * (1 + std::abs(narrow));
       result[c][point] = smooth ? (4 * narrow - wide) / 3 : std::nan("");
     }
   return result;

@@ -137,7 +137,7 @@ template <class L> MS_INLINE L marble(Vec<3, L> p, L width, L distortion) {
   constexpr double kScale = 0.93; // not 1, so that noise and veins do not keep step
   constexpr double kTurn = 6.283185307179586;
   width = min(abs(width), constant<L>(4096)); // all there is to see is the mean
-  L half = constant<L>(0.5), one = constant<L>(1), scale = constant<L>(kScale);
+  L half = constant<L>(0.5), scale = constant<L>(kScale);
   const Vec<3, L> q = p * scale;
   if (all_are_points(width))
     return joined(madd(sin(madd(distortion, turbulence_at(q), p[0]) * constant<L>(kTurn)), 0.5, half), width);
@@ -154,17 +154,18 @@ template <class L> MS_INLINE L marble(Vec<3, L> p, L width, L distortion) {
   return madd(wave * contrast, 0.5, half);
 }
 
+/// Where in its year a ring is darkest.
+inline constexpr double kDarkest = 0.85;
+
 /// The integral from 0 to t of one ring in each unit: from 0 slowly to 1, and back over the last part.
 template <class L> MS_INLINE L ring_integral(L t) {
-  constexpr double kDark = 0.85;
-  L whole = floor(t), rest = t - whole, fallen = max(rest - constant<L>(kDark), constant<L>(0));
-  L rise = min(rest, constant<L>(kDark));
-  return madd(whole, 0.5, madd(rise * rise, 0.5 / kDark, nmadd(fallen * fallen, 0.5 / (1 - kDark), fallen)));
+  L whole = floor(t), rest = t - whole, fallen = max(rest - constant<L>(kDarkest), constant<L>(0));
+  L rise = min(rest, constant<L>(kDarkest));
+  return madd(whole, 0.5, madd(rise * rise, 0.5 / kDarkest, nmadd(fallen * fallen, 0.5 / (1 - kDarkest), fallen)));
 }
 /// One year's ring: from light at 0 slowly to dark, and back over the last part.
 template <class L> MS_INLINE L ring(L t) {
-  constexpr double kDark = 0.85;
-  return min(t * constant<L>(1 / kDark), (constant<L>(1) - t) * constant<L>(1 / (1 - kDark)));
+  return min(t * constant<L>(1 / kDarkest), (constant<L>(1) - t) * constant<L>(1 / (1 - kDarkest)));
 }
 /// Seen through squares turned all ways, as wide as `width` rings: along a line they are boxes, as wide as twice the
 /// distances from the middle in a square; two, that have the second and the fourth moment of all.
@@ -177,7 +178,7 @@ template <class L> MS_INLINE L ring(L t, L width) {
     seen = madd(ring_integral(t + side) - ring_integral(t - side), 0.25 / box, seen);
   }
   L mean = constant<L>(0.5);
-  seen = mix(seen / reach, mean, smoothstep(constant<L>(0.6), constant<L>(2), width));
+  seen = mix(seen / reach, mean, smoothstep(constant<L>(0.5), constant<L>(2), width));
   return select(less(width, constant<L>(kNarrow)), ring(t), seen);
 }
 

@@ -56,9 +56,9 @@ const Pattern kPatterns[] = {
     {"voronoi of space", [](Vec2 p, double w) { return voronoi<double, 3>(level(p), w, 0.05, 1).first; }, 0.4, 0.065},
     {"voronoi of space oblique", [](Vec2 p, double w) { return voronoi<double, 3>(oblique(p), w, 0.05, 1).first; }, 0.4,
      0.07},
-    {"wood", [](Vec2 p, double w) { return wood<double>(level(p), w, 0.4, 0.2); }, 0.11, 0.045},
+    {"wood", [](Vec2 p, double w) { return wood<double>(level(p), w, 0.4, 0.2); }, 0.11, 0.04},
     {"wood oblique", [](Vec2 p, double w) { return wood<double>(oblique(p), w, 0.4, 0.2); }, 0.13, 0.045},
-    {"marble", [](Vec2 p, double w) { return marble<double>(level(p), w, 0.5); }, 0.25, 0.085},
+    {"marble", [](Vec2 p, double w) { return marble<double>(level(p), w, 0.5); }, 0.25, 0.08},
     {"marble oblique", [](Vec2 p, double w) { return marble<double>(oblique(p), w, 0.5); }, 0.2, 0.065},
     {"marble distorted", [](Vec2 p, double w) { return marble<double>(level(p), w, 1); }, 0.25, 0.08},
 };
