@@ -1,5 +1,5 @@
-// Inside `build` only: the state of the translation of one specialisation, shared by build.cpp (functions),
-// build_expressions.cpp and build_statements.cpp.
+// Inside `build` only: the state of the translation of one specialisation, shared by build.cpp (functions) and the
+// files build_*.cpp.
 #pragma once
 
 #include "compiler/ir/build_calculus.h"
@@ -25,6 +25,8 @@ struct ModuleBuild {
 std::optional<ValueType> run_time_type(const sema::Type& type);
 /// Those of a list that have one.
 std::vector<ValueType> run_time_types(const std::vector<sema::Type>& types);
+/// The library's function of this name for these parameters; null where there is none.
+const LibraryFunction* find_row(std::string_view name, std::initializer_list<ValueType> types);
 
 class FunctionBuild {
 public:
@@ -88,11 +90,17 @@ private:
   ValueId conditional_table(const syntax::BinaryExpr& expr, const sema::Type& type);
   ValueId choose(ValueId condition, ValueType type, Block then_block, ValueId then_value, Block else_block,
                  ValueId else_value);
+  ValueId table_function(const sema::ExpressionFact& known, const sema::Type& array, const Values& arguments);
+  ValueId dynamic_component(const syntax::IndexExpr& expr);
+  ValueId library_value(const LibraryFunction& row, ValueType type, Values operands);
+  void divisor_fault(ValueId divisor);
+  std::optional<int64_t> known_integer(ValueId value) const;
+
+  // Calls (build_calls.cpp)
   Values call(const syntax::Expr& expr);
   Values call_specialisation(const sema::ExpressionFact& known, const Values& arguments);
   Values call_library(const sema::ExpressionFact& known, Values arguments);
   Values square_numbers(ValueType type, ValueId argument);
-  ValueId table_function(const sema::ExpressionFact& known, const sema::Type& array, const Values& arguments);
   Values column_of(ValueId matrix, unsigned column);
   ValueId matrix_times(ValueId matrix, const Values& vector);
   ValueId matrix_product(ValueId left, ValueId right);
@@ -101,14 +109,10 @@ private:
   ValueId integer_of(ValueId number);
   Values modf(ValueId argument);
   ValueId texture(const sema::ExpressionFact& known, const syntax::CallExpr& expr);
-  ValueId dynamic_component(const syntax::IndexExpr& expr);
   ValueId to_integer(const sema::ExpressionFact& known, ValueId argument);
   void assertion(const syntax::Expr& expr, std::span<syntax::Expr* const> args, ValueId condition);
-  ValueId library_value(const LibraryFunction& row, ValueType type, Values operands);
   void print(std::span<syntax::Expr* const> args, const Values& arguments);
-  void divisor_fault(ValueId divisor);
   std::string message_of(std::span<syntax::Expr* const> args, size_t index, std::string_view otherwise) const;
-
   /// The variables that a call of a specialisation binds to its captures.
   std::vector<VariableId> captures_of(const sema::Specialisation& callee);
 
@@ -171,8 +175,6 @@ private:
   void break_if(ValueId condition, LabelId label);
   void return_statement(const syntax::ReturnStat& stat);
   void find_goto_targets(const syntax::Block& block);
-
-  std::optional<int64_t> known_integer(ValueId value) const;
 
   ModuleBuild& shared_;
   const sema::Specialisation& specialisation_;

@@ -97,10 +97,8 @@ void FunctionBuild::construct(const TableExpr& expr, const Table& table, ValueId
 }
 
 void FunctionBuild::construct_slot(const Table& table, const Table::Field& field, ValueId slot, const Expr& value) {
-  const Expr* inner = &value;
-  while (const auto* paren = try_as<ParenExpr>(inner))
-    inner = paren->inner;
-  if (const auto* constructor = try_as<TableExpr>(inner); constructor != nullptr && field.inner != nullptr) {
+  if (const auto* constructor = try_as<TableExpr>(&strip_parentheses(value));
+      constructor != nullptr && field.inner != nullptr) {
     construct(*constructor, *field.inner, field.inner->is_element() ? slot : kNone);
     return;
   }

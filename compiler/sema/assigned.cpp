@@ -43,10 +43,7 @@ State merge(const State& a, const State& b) {
 }
 
 bool is_literal(const Expr& expr, bool value) {
-  const Expr* inner = &expr;
-  while (const auto* paren = try_as<ParenExpr>(inner))
-    inner = paren->inner;
-  const auto* literal = try_as<BooleanExpr>(inner);
+  const auto* literal = try_as<BooleanExpr>(&strip_parentheses(expr));
   return literal != nullptr && literal->value == value;
 }
 

@@ -7,13 +7,6 @@ namespace moonshade::sema {
 using namespace syntax;
 using Code = DiagnosticCode;
 
-const Expr& strip_parentheses(const Expr& expr) {
-  const Expr* inner = &expr;
-  while (const auto* paren = try_as<ParenExpr>(inner))
-    inner = paren->inner;
-  return *inner;
-}
-
 Type Walker::record(const Expr& expr, ExpressionFact fact) {
   const Type type = fact.type;
   if (!context_.report || work_.spec == nullptr) return type;

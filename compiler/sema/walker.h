@@ -215,7 +215,4 @@ bool is_derivative(std::string_view name);
 /// fbm, turbulence, ...: with a function first, they sum that.
 bool is_sum(std::string_view name, const TypeList& args);
 
-/// The expression inside any parentheses.
-const syntax::Expr& strip_parentheses(const syntax::Expr& expr);
-
 } // namespace moonshade::sema

@@ -15,11 +15,6 @@ using Code = DiagnosticCode;
 
 namespace {
 
-const Expr& strip(const Expr& expr) {
-  const auto* paren = try_as<ParenExpr>(&expr);
-  return paren == nullptr ? expr : strip(*paren->inner);
-}
-
 bool is_exempt(std::string_view name) { return name.starts_with('_'); }
 
 class Warner {
@@ -70,7 +65,7 @@ private:
   bool stands_for_library(const Local& local) const {
     const auto value = values_.find(&local);
     if (value == values_.end()) return false;
-    const Expr& expr = strip(*value->second);
+    const Expr& expr = strip_parentheses(*value->second);
     if (const auto* index = try_as<IndexExpr>(&expr)) return try_as<NameExpr>(index->object) != nullptr;
     const auto* name = try_as<NameExpr>(&expr);
     return name != nullptr && name->is_global();
@@ -260,7 +255,7 @@ private:
   bool ends(const Stat& stat) const {
     if (const auto* body = try_as<DoStat>(&stat)) return ends(*body->body);
     if (const auto* loop = try_as<WhileStat>(&stat)) {
-      const auto* condition = try_as<BooleanExpr>(&strip(*loop->condition));
+      const auto* condition = try_as<BooleanExpr>(&strip_parentheses(*loop->condition));
       return condition != nullptr && condition->value && !is_left(stat, false) && !has_goto(*loop->body);
     }
     if (const auto* branch = try_as<IfStat>(&stat)) {
@@ -302,7 +297,7 @@ private:
   /// The comparison without whose exact equality the loop goes on; null where something else ends it. `ends_when`: the
   /// truth value of the condition that ends the loop.
   const BinaryExpr* deciding_equality(const Expr& condition, bool ends_when) const {
-    const Expr& expr = strip(condition);
+    const Expr& expr = strip_parentheses(condition);
     if (const auto* negation = try_as<UnaryExpr>(&expr))
       return negation->op == UnaryOp::Not ? deciding_equality(*negation->operand, !ends_when) : nullptr;
     const auto* binary = try_as<BinaryExpr>(&expr);

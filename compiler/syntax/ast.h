@@ -355,6 +355,14 @@ template <class T, class Base> auto try_as(const Base* node) -> decltype(T::kKin
   return node != nullptr && node->kind == T::kKind ? static_cast<const T*>(node) : nullptr;
 }
 
+/// The expression inside any parentheses.
+inline const Expr& strip_parentheses(const Expr& expr) {
+  const Expr* inner = &expr;
+  while (const auto* paren = try_as<ParenExpr>(inner))
+    inner = paren->inner;
+  return *inner;
+}
+
 /// Calls `visitor(node as its own struct)`; the visitor has one overload a kind, or a generic one for the rest.
 template <class Visitor> decltype(auto) visit(const Expr& expr, Visitor&& visitor) {
   switch (expr.kind) {
