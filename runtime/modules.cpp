@@ -1,10 +1,9 @@
 // Modules as files below some folders. A name has letters, digits, '_' and '-' between its dots (sema sees to that), so
 // a path cannot climb; links that lead outside are not followed.
+#include "compiler/base/read_file.h"
 #include "runtime/shader.h"
 
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 #include <system_error>
 
 namespace moonshade {
@@ -26,11 +25,9 @@ ModuleText read_module(const std::filesystem::path& path, const std::filesystem:
   if (!std::filesystem::is_regular_file(real, error)) return {path.string(), "", "'" + path.string() + "' is no file"};
   if (std::filesystem::file_size(real, error) > kMaxModuleBytes)
     return {path.string(), "", "'" + path.string() + "' is larger than 16 MiB"};
-  std::ifstream in(real, std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
-  if (!in) return {path.string(), "", "'" + path.string() + "' cannot be read"};
-  return {path.string(), text.str(), ""};
+  FileText file = read_file(real.string(), kMaxModuleBytes);
+  if (!file.error.empty()) return {path.string(), "", "'" + path.string() + "' cannot be read"};
+  return {path.string(), std::move(file.text), ""};
 }
 
 } // namespace

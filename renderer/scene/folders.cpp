@@ -1,9 +1,6 @@
 // What a scene has used of its folders; whole files as text.
 #include "renderer/scene/folders.h"
 
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
 #include <filesystem>
 
 namespace moonshade::renderer {
@@ -29,22 +26,9 @@ ResolvedPath Folders::resolve_or_beside(const std::string& base_folder, const st
 FileText read_file(const std::string& path, uint64_t limit) {
   std::error_code error;
   if (fs::is_directory(path, error)) return {"", path + ": is a folder"};
-  std::FILE* file = std::fopen(path.c_str(), "rb");
-  if (!file) return {"", path + ": " + std::strerror(errno)};
-  std::string text;
-  uint64_t size = fs::file_size(path, error);
-  if (!error && size <= limit) text.reserve(size);
-  char block[1 << 16];
-  size_t count = sizeof block;
-  while (count == sizeof block && text.size() <= limit) {
-    count = std::fread(block, 1, sizeof block, file);
-    text.append(block, count);
-  }
-  bool failed = std::ferror(file) != 0;
-  std::fclose(file);
-  if (failed) return {"", path + ": cannot be read"};
-  if (text.size() > limit) return {"", path + ": larger than " + std::to_string(limit) + " bytes"};
-  return {std::move(text), ""};
+  FileText file = moonshade::read_file(path, limit);
+  if (!file.error.empty()) file.error.insert(0, path + ": ");
+  return file;
 }
 
 } // namespace moonshade::renderer

@@ -2,6 +2,7 @@
 // Symbolic links are followed before the check, so they lead nowhere else either.
 #pragma once
 
+#include "compiler/base/read_file.h"
 #include "runtime/allowed_folders.h"
 
 #include <set>
@@ -29,11 +30,7 @@ private:
   mutable std::set<std::string> used_; ///< a record only: decides nothing
 };
 
-/// A whole file, at most `limit` bytes.
-struct FileText {
-  std::string text;
-  std::string error;
-};
+/// moonshade::read_file's, with the file's name in the error.
 FileText read_file(const std::string& path, uint64_t limit = uint64_t(8) << 30);
 
 } // namespace moonshade::renderer

@@ -61,23 +61,8 @@ void keep_standard_files_apart() {
       static_cast<void>(open("/dev/null", kModes[descriptor])); // the lowest that is free
 }
 
-FileText read_file(const std::string& path, size_t limit) {
-  const int descriptor = path == "-" ? dup(STDIN_FILENO) : open(path.c_str(), O_RDONLY);
-  if (descriptor < 0) return {"", system_error()};
-  FileText file;
-  char buffer[1 << 16];
-  for (;;) {
-    const ssize_t count = ::read(descriptor, buffer, sizeof buffer);
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0) file = {"", system_error()};
-    if (count <= 0) break;
-    file.text.append(buffer, size_t(count));
-    if (file.text.size() <= limit) continue;
-    file = {"", "larger than " + std::to_string(limit) + " bytes"};
-    break;
-  }
-  close(descriptor);
-  return file;
+FileText read_file(const std::string& path, uint64_t limit) {
+  return path == "-" ? read_rest(STDIN_FILENO, limit) : moonshade::read_file(path, limit);
 }
 
 std::string write_file(const std::string& path, const std::string& bytes) {

@@ -1,6 +1,7 @@
 // Files read and written whole.
 #pragma once
 
+#include "compiler/base/read_file.h"
 #include "runtime/shader.h"
 
 #include <string>
@@ -12,12 +13,9 @@ namespace moonshade::tools {
 /// would take the number, and messages would go into an image.
 void keep_standard_files_apart();
 
-struct FileText {
-  std::string text;
-  std::string error; ///< why it cannot be read; empty where it can
-};
-/// Reads the file; "-" is standard input. One of more than `limit` bytes, or without an end, is an error.
-FileText read_file(const std::string& path, size_t limit = size_t{64} << 20);
+using moonshade::FileText;
+/// moonshade::read_file's, but "-" is standard input.
+FileText read_file(const std::string& path, uint64_t limit = uint64_t{64} << 20);
 
 /// Writes to a temporary file beside `path` and renames it: the file is there whole or not at all. "-" is standard
 /// output. Gives the error, or an empty text.
