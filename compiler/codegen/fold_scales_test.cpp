@@ -1,11 +1,7 @@
 // fold_scales: functions of LLVM's before and after, as text.
 #include "compiler/codegen/fold_scales.h"
 
-#include <llvm/AsmParser/Parser.h>
-#include <llvm/IR/LLVMContext.h>
-#include <llvm/IR/Verifier.h>
-#include <llvm/Support/SourceMgr.h>
-#include <llvm/Support/raw_ostream.h>
+#include "compiler/codegen/llvm_text_for_test.h"
 
 #include <gtest/gtest.h>
 #include <regex>
@@ -15,21 +11,13 @@ namespace {
 
 /// The function `f` with these instructions, which begin with the integers %n of at most 24 bits, after folding.
 std::string after(const std::string& instructions) {
-  const std::string text = "declare <2 x float> @llvm.fma.v2f32(<2 x float>, <2 x float>, <2 x float>)\n"
-                           "define <2 x float> @f(<2 x i32> %x, <2 x float> %y) {\n"
-                           "  %n = lshr <2 x i32> %x, splat (i32 8)\n" +
-                           instructions + "}\n";
-  llvm::LLVMContext context;
-  llvm::SMDiagnostic diagnostic;
-  const std::unique_ptr<llvm::Module> module = llvm::parseAssemblyString(text, diagnostic, context);
-  if (module == nullptr) return diagnostic.getMessage().str();
-  fold_scales(*module);
-  std::string result;
-  llvm::raw_string_ostream stream(result);
-  if (llvm::verifyModule(*module, &stream)) return result;
-  for (const llvm::Instruction& instruction : module->getFunction("f")->getEntryBlock())
-    stream << instruction << "\n";
-  return result.substr(result.find('\n') + 1); // without that of %n
+  const std::string before = "define <2 x float> @f(<2 x i32> %x, <2 x float> %y) {\n"
+                             "  %n = lshr <2 x i32> %x, <i32 8, i32 8>\n";
+  const std::string text = function_after(before + instructions +
+                                              "}\ndeclare <2 x float> @llvm.fma.v2f32("
+                                              "<2 x float>, <2 x float>, <2 x float>)\n",
+                                          fold_scales);
+  return text.starts_with(before) ? text.substr(before.size(), text.size() - before.size() - 2) : text;
 }
 
 /// As LLVM prints what may be written shorter.

@@ -1,11 +1,7 @@
 // split_lanes: functions of LLVM's before and after, as text.
 #include "compiler/codegen/split_lanes.h"
 
-#include <llvm/AsmParser/Parser.h>
-#include <llvm/IR/LLVMContext.h>
-#include <llvm/IR/Verifier.h>
-#include <llvm/Support/SourceMgr.h>
-#include <llvm/Support/raw_ostream.h>
+#include "compiler/codegen/llvm_text_for_test.h"
 
 #include <gtest/gtest.h>
 
@@ -14,16 +10,7 @@ namespace {
 
 /// The function `f` of the text, split from four lanes to halves of two.
 std::string after(const std::string& text) {
-  llvm::LLVMContext context;
-  llvm::SMDiagnostic diagnostic;
-  const std::unique_ptr<llvm::Module> module = llvm::parseAssemblyString(text, diagnostic, context);
-  if (module == nullptr) return diagnostic.getMessage().str();
-  split_lanes(*module, 4, 2);
-  std::string result = "\n";
-  llvm::raw_string_ostream stream(result);
-  if (llvm::verifyModule(*module, &stream)) return result;
-  module->getFunction("f")->print(stream);
-  return result;
+  return "\n" + function_after(text, [](llvm::Module& module) { split_lanes(module, 4, 2); });
 }
 
 TEST(SplitLanes, WhatWorksByLaneIsDoneForEachHalf) {

@@ -30,18 +30,18 @@ void Wavefront::scatter_path(const CompiledMaterial& material, size_t begin, siz
   if (count > 0) scatter_block(scattering, points, count);
 }
 
-/// What the BSDF will look up there.
-static AlbedoNeeds albedo_needs(const CompiledMaterial& m) {
+static SurfaceKinds kinds_of(const CompiledMaterial& m) {
   float roughness = m.constants[size_t(Slot::Roughness)].x;
-  bool rough = m.calls[size_t(Slot::Roughness)] || !(roughness * roughness < kSmoothAlpha);
-  bool metal = m.may_differ(Slot::Metallic, 0), glass = m.may_differ(Slot::Transmission, 0);
-  bool coat = m.may_differ(Slot::Metallic, 1) && m.may_differ(Slot::Transmission, 1) && m.may_differ(Slot::Ior, 1);
-  return {coat || (rough && (metal || (glass && m.thin))), rough && glass && !m.thin};
+  return {.metal = m.may_differ(Slot::Metallic, 0),
+          .coat = m.may_differ(Slot::Metallic, 1) && m.may_differ(Slot::Transmission, 1) && m.may_differ(Slot::Ior, 1),
+          .glass = m.may_differ(Slot::Transmission, 0),
+          .rough = m.calls[size_t(Slot::Roughness)] || !(roughness * roughness < kSmoothAlpha),
+          .thin = m.thin};
 }
 
 /// What the kernels need of a material. Slots that are constants are in the block from here on.
 Wavefront::BlockMaterial Wavefront::block_material(const CompiledMaterial& m) {
-  BlockMaterial result{m.only_diffuse(), m.thin, albedo_tables(albedo_needs(m)), {}};
+  BlockMaterial result{m.only_diffuse(), m.thin, albedo_tables(albedo_needs(kinds_of(m))), {}};
   auto slot = [&](Slot which, int component, LaneFloats& lanes) {
     if (m.calls[size_t(which)])
       result.shaded.push_back({shader_.results(which, component), &lanes});

@@ -6,11 +6,19 @@
 
 namespace moonshade::renderer {
 
+/// What a surface has, or may have.
+struct SurfaceKinds {
+  bool metal, coat, glass, rough, thin;
+};
+
 /// What surfaces ask for; the greater tables take a while to make.
 struct AlbedoNeeds {
   bool facets = false; ///< of metals, sheets and coats
   bool glass = false;  ///< solid and rough
 };
+inline AlbedoNeeds albedo_needs(const SurfaceKinds& s) {
+  return {s.coat || (s.rough && (s.metal || (s.glass && s.thin))), s.rough && s.glass && !s.thin};
+}
 
 /// As plain data. Those over cosines have kCosines of them for each alpha, and kAlphas such rows for each index.
 struct AlbedoTables {

@@ -11,14 +11,16 @@ Vec3 turned_to_viewer(const Vec3& normal, const Vec3& geometric_normal, const Ve
 
 static lanes::Bsdf<float> of_one(const SurfaceValues& v, const Vec3& shading_normal, const Vec3& geometric_normal,
                                  const Vec3& out, SurfaceSide side) {
-  bool rough = !(v.roughness * v.roughness < kSmoothAlpha), glass = v.metallic < 1 && v.transmission > 0;
-  bool coat = v.metallic < 1 && v.transmission < 1 && v.ior > 1;
-  AlbedoNeeds needs{coat || (rough && (v.metallic > 0 || (glass && side.thin))), rough && glass && !side.thin};
+  SurfaceKinds kinds{.metal = v.metallic > 0,
+                     .coat = v.metallic < 1 && v.transmission < 1 && v.ior > 1,
+                     .glass = v.metallic < 1 && v.transmission > 0,
+                     .rough = !(v.roughness * v.roughness < kSmoothAlpha),
+                     .thin = side.thin};
   return {{lane(v.color), lane(v.reflectance), v.roughness, v.metallic, v.ior, v.transmission},
           {lane(shading_normal), lane(geometric_normal), lane(out), {side.backface}},
           side.thin,
           side.photons,
-          albedo_tables(needs)};
+          albedo_tables(albedo_needs(kinds))};
 }
 
 Bsdf::Bsdf(const SurfaceValues& values, const Vec3& shading_normal, const Vec3& geometric_normal, const Vec3& out,
