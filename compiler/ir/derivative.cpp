@@ -4,6 +4,7 @@
 
 #include "compiler/ir/builder.h"
 #include "compiler/ir/derivative_activity.h"
+#include "compiler/ir/waits.h"
 #include "compiler/ir/walk.h"
 
 #include <algorithm>
@@ -89,7 +90,15 @@ private:
   // Sums and products of derivatives that may be zero.
   ValueId product(ValueId factor, ValueId tangent) {
     if (tangent == kNone || is_one(factor)) return tangent;
-    return is_one(tangent) ? factor : b_->binary(Op::Mul, factor, tangent);
+    if (is_one(tangent)) return factor;
+    // weight * (slope * scale) is slope * (weight * scale) where both are there first, and often the same everywhere.
+    const Instruction& made = b_->at(tangent);
+    if (made.op == Op::Mul && waits_(factor) < waits_(made.operands[0]) &&
+        waits_(made.operands[1]) < waits_(made.operands[0])) {
+      const ValueId slope = made.operands[0], scale = made.operands[1];
+      return b_->binary(Op::Mul, slope, product(factor, scale));
+    }
+    return b_->binary(Op::Mul, factor, tangent);
   }
   /// The slope of a function of the library times what its argument has. Functions of numbers (min, clamp, smoothstep)
   /// are flat over ranges, where the argument's derivative may be infinite or none: 0 there. Anywhere else the product
@@ -114,6 +123,7 @@ private:
   const std::span<const uint32_t> seeds_; ///< of the root: the parameters that it is differentiated by
   Function function_;
   Builder* b_ = nullptr;
+  Waits waits_{function_};
   std::vector<ValueId> values_;    ///< by ValueId of the source
   std::vector<Tangents> tangents_; ///< by ValueId of the source; of calls: of their first result
   std::unordered_map<ValueId, std::vector<Tangents>> call_tangents_;

@@ -93,6 +93,23 @@ function f'(a: number, b: number) -> number, number, number {
 )");
 }
 
+TEST(Derivative, MultipliesFirstWhatIsThereFirst) {
+  // weight * noise(p * scale): the slope comes last.
+  const std::string text = gradient_of({Number}, {Number}, [](Builder& b) {
+    const VariableId weight = b.variable("weight", Number), scale = b.variable("scale", Number);
+    b.store(weight, b.number(0.5));
+    b.store(scale, b.number(3));
+    const ValueId noise = b.call_library(row("noise"), Number, {b.binary(Op::Mul, b.argument(0), b.load(scale))});
+    b.return_values({b.binary(Op::Mul, noise, b.load(weight))});
+  });
+  EXPECT_THAT(text, HasSubstr(R"(%6: number = result 1, %5
+  %7: number = load $0.weight
+  %8: number = mul %5, %7
+  %9: number = mul %7, %3
+  %10: number = mul %6, %9
+  return %8, %10)"));
+}
+
 TEST(Derivative, GivesVariablesOnlyTheDirectionsThatTheyHave) {
   const std::string text = gradient_of({Number, Number}, {Number}, [](Builder& b) {
     const VariableId v = b.variable("v", Number), w = b.variable("w", Number);

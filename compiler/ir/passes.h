@@ -31,6 +31,9 @@ void convert_ifs_to_selects(Function& function);
 /// Of equal computations, the later takes the value of the earlier. (share_values.cpp)
 void share_values(Function& function);
 
+/// Of variables that always hold the same, one is left. (share_variables.cpp)
+void share_variables(Function& function);
+
 /// Values without a use, stores to variables that are never loaded, unused variables. (dead_code.cpp)
 void remove_dead_code(Function& function);
 

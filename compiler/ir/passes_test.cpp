@@ -3,7 +3,9 @@
 
 #include "compiler/ir/test_interpreter.h"
 #include "compiler/ir/test_modules.h"
+#include "compiler/ir/verify.h"
 
+#include <cmath>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <limits>
@@ -397,6 +399,83 @@ function f() {
 function used() {
 }
 )");
+}
+
+/// A loop that stores two variables: what each begins with, whether both are stored before one is read, and the
+/// factors.
+std::string two_variables(double first, double second, bool apart, double factor, double other_factor) {
+  return after(
+      [](Function& function) {
+        share_variables(function);
+        forward_variables(function);
+      },
+      {Boolean}, {Number, Number},
+      [=](Builder& b) {
+        const VariableId x = b.variable("x", Number), y = b.variable("y", Number);
+        b.store(x, b.number(first));
+        b.store(y, b.number(second));
+        const LabelId label = b.label();
+        b.loop(label, b.block([&] {
+          b.if_else(b.argument(0), b.block([&] { b.break_to(label); }));
+          const ValueId old_x = b.load(x), old_y = b.load(y);
+          b.store(x, b.binary(Op::Mul, old_x, b.number(factor)));
+          if (apart) b.store(x, b.binary(Op::Add, b.load(x), b.number(0)));
+          b.store(y, b.binary(Op::Mul, old_y, b.number(other_factor)));
+        }));
+        b.return_values({b.load(x), b.load(y)});
+      });
+}
+
+TEST(ShareVariables, LeavesOneOfThoseThatAlwaysHoldTheSame) {
+  EXPECT_EQ(two_variables(1, 1, false, 2, 2), R"(
+function f(a: boolean) -> number, number {
+  var $0.x: number
+  %0: number = const.n 1
+  store $0.x, %0
+  loop #0 {
+    %1: boolean = argument 0
+    if %1 {
+      break #0
+    }
+    %2: number = load $0.x
+    %3: number = const.n 2
+    %4: number = mul %2, %3
+    store $0.x, %4
+  }
+  %5: number = load $0.x
+  return %5, %5
+}
+)");
+}
+
+TEST(ShareVariables, KeepsWhatIsStoredDifferentlyOrAtAnotherTime) {
+  EXPECT_THAT(two_variables(1, 2, false, 2, 2), HasSubstr("$1.y"));
+  EXPECT_THAT(two_variables(1, 1, false, 2, 3), HasSubstr("$1.y"));
+  EXPECT_THAT(two_variables(1, 1, true, 2, 2), HasSubstr("$1.y"));
+}
+
+TEST(ShareVariables, KeepsWhatACallMayHaveStoredMeanwhile) {
+  // x and y are loaded from one captured variable, but a call lies between.
+  Module module;
+  module.functions.emplace_back().name = "g";
+  module.functions.back().variables = {{.name = "v", .type = Number}};
+  module.functions.back().captures = 1;
+  Function& f = module.functions.emplace_back();
+  f.name = "f";
+  f.results = {Number, Number};
+  {
+    Builder b(f);
+    const VariableId v = b.variable("v", Number), x = b.variable("x", Number), y = b.variable("y", Number);
+    b.store(v, b.number(1));
+    const ValueId before = b.load(v);
+    b.call(0, {}, {}, {v});
+    const ValueId behind = b.load(v);
+    b.store(x, before);
+    b.store(y, behind);
+    b.return_values({b.load(x), b.load(y)});
+  }
+  share_variables(f);
+  EXPECT_THAT(to_text(module), HasSubstr("load $2.y"));
 }
 
 std::string fused(const std::function<ValueId(Builder&, ValueId, ValueId, ValueId)>& make) {

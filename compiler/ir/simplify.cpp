@@ -14,6 +14,7 @@ void simplify(Function& function) {
     convert_ifs_to_selects(function);
     remove_dead_code(function);
   }
+  share_variables(function);
   forward_variables(function);
   decide_comparisons(function);
   fold_constants(function);
