@@ -1,70 +1,141 @@
-// fuse, for f32: a product that is added to or subtracted from once becomes part of an fma. The rule is fixed, and the
-// pass runs at every level of optimisation, before a width is chosen, so that the bits are the same everywhere:
+// fuse, for f32: a product that is added to or subtracted from once becomes part of an fma. The rules are fixed, and
+// the pass runs at every level of optimisation, before a width is chosen, so that the bits are the same everywhere:
 //
 //   x + y    where x is a product a*b used nowhere else:      fma(a, b, y)
-//            else where y is a product a*b used nowhere else: fma(a, b, x)
+//            where y is a product a*b used nowhere else:      fma(a, b, x)
 //   x - y    where x is a product a*b used nowhere else:      fma(a, b, -y)
-//            else where y is a product a*b used nowhere else: fma(-a, b, x)      (exact: a*b is not rounded)
+//            where y is a product a*b used nowhere else:      fma(-a, b, x)      (exact: a*b is not rounded)
+//            Where both are, x, unless y has to wait longer for its factors: it then waits for one operation less.
+//   mix(a, b, t) of constants, where a + (b - a) rounds to b: fma(t, b - a, a)   (b at t = 1, as mix promises)
 //
 // for numbers and vectors, in order of execution. Only `mul` counts as a product, not what the library computes.
 #include "compiler/ir/passes.h"
+#include "compiler/ir/waits.h"
 #include "compiler/ir/walk.h"
+
+#include <algorithm>
+#include <cmath>
 
 namespace moonshade::ir {
 namespace {
 
-bool is_product(const Function& function, const std::vector<uint32_t>& uses, ValueId id) {
-  return function.instructions[id].op == Op::Mul && uses[id] == 1;
+/// The constants that a value consists of; empty where it is no constant.
+std::vector<float> constants_of(const Function& function, ValueId id) {
+  const Instruction& value = function.instructions[id];
+  if (value.op == Op::ConstNumber) return {static_cast<float>(value.number)};
+  if (value.op != Op::Construct) return {};
+  std::vector<float> constants;
+  for (const ValueId operand : value.operands) {
+    if (function.instructions[operand].op != Op::ConstNumber) return {};
+    constants.push_back(static_cast<float>(function.instructions[operand].number));
+  }
+  return constants;
 }
 
-ValueId append_negation(Function& function, ValueId of, Span span, std::vector<ValueId>& result) {
-  Instruction negation{};
-  negation.op = Op::Neg;
-  negation.type = function.instructions[of].type;
-  negation.operands = {of};
-  negation.span = span;
-  function.instructions.push_back(std::move(negation));
-  result.push_back(static_cast<ValueId>(function.instructions.size() - 1));
-  return result.back();
+/// What has to be added to `from` to come to `to`, by component, as floats; empty where that does not lead there.
+std::vector<float> differences(const std::vector<float>& from, const std::vector<float>& to) {
+  if (from.empty() || to.empty()) return {};
+  std::vector<float> result(std::max(from.size(), to.size()));
+  for (size_t c = 0; c < result.size(); ++c) {
+    const float a = from[from.size() == 1 ? 0 : c], b = to[to.size() == 1 ? 0 : c];
+    result[c] = b - a;
+    if (!std::isfinite(result[c]) || a + result[c] != b) return {};
+  }
+  return result;
 }
 
-void fuse(Function& function) {
-  // What is printed is no use: the numbers are to be those of code without prints.
-  std::vector<uint32_t> uses = count_uses(function);
-  for_each_instruction(function, [&](ValueId id) {
-    if (function.instructions[id].op != Op::Print) return;
-    for (const ValueId operand : function.instructions[id].operands)
-      --uses[operand];
-  });
-  rewrite_blocks(function, [&](ValueId id, std::vector<ValueId>& result) {
-    const Op op = function.instructions[id].op;
-    const ValueType type = function.instructions[id].type;
-    if ((op == Op::Add || op == Op::Sub) && (type == ValueType::Number || is_vector(type))) {
-      const ValueId x = function.instructions[id].operands[0], y = function.instructions[id].operands[1];
-      const Span span = function.instructions[id].span;
-      const bool left = is_product(function, uses, x);
-      if (left || is_product(function, uses, y)) {
-        std::vector<ValueId> operands = function.instructions[left ? x : y].operands;
-        ValueId addend = left ? y : x;
-        if (op == Op::Sub) {
-          ValueId& negated = left ? addend : operands[0];
-          negated = append_negation(function, negated, span, result);
-        }
-        operands.push_back(addend);
-        function.instructions[id].op = Op::Fma;
-        function.instructions[id].operands = std::move(operands);
+class Fusing {
+public:
+  explicit Fusing(Function& function) : function_(function), uses_(count_uses(function)), waits_(function) {
+    // What is printed is no use: the numbers are to be those of code without prints.
+    for_each_instruction(function, [&](ValueId id) {
+      if (function.instructions[id].op != Op::Print) return;
+      for (const ValueId operand : function.instructions[id].operands)
+        --uses_[operand];
+    });
+  }
+
+  void run() {
+    rewrite_blocks(function_, [&](ValueId id, std::vector<ValueId>& result) {
+      const Instruction& instruction = function_.instructions[id]; // moved away by what is appended
+      const bool is_sum = instruction.op == Op::Add || instruction.op == Op::Sub;
+      if (is_sum && (instruction.type == ValueType::Number || is_vector(instruction.type))) {
+        fuse_sum(id, result);
+      } else if (instruction.op == Op::CallLibrary && instruction.library->name == "mix") {
+        fuse_mix(id, result);
       }
+      result.push_back(id);
+      return true;
+    });
+  }
+
+private:
+  bool is_product(ValueId id) const { return function_.instructions[id].op == Op::Mul && uses_[id] == 1; }
+
+  /// In the place and at the line of `at`.
+  ValueId append(Op op, ValueType type, std::vector<ValueId> operands, ValueId at, std::vector<ValueId>& result,
+                 double number = 0) {
+    Instruction instruction{};
+    instruction.op = op;
+    instruction.type = type;
+    instruction.operands = std::move(operands);
+    instruction.number = number;
+    instruction.span = function_.instructions[at].span;
+    function_.instructions.push_back(std::move(instruction));
+    result.push_back(static_cast<ValueId>(function_.instructions.size() - 1));
+    return result.back();
+  }
+
+  void become_fma(ValueId id, std::vector<ValueId> operands) {
+    Instruction& instruction = function_.instructions[id];
+    instruction.op = Op::Fma;
+    instruction.library = nullptr;
+    instruction.operands = std::move(operands);
+  }
+
+  void fuse_sum(ValueId id, std::vector<ValueId>& result) {
+    const bool is_difference = function_.instructions[id].op == Op::Sub;
+    const ValueId x = function_.instructions[id].operands[0], y = function_.instructions[id].operands[1];
+    const bool left = is_product(x) && !(is_product(y) && waits_(y) > waits_(x));
+    if (!left && !is_product(y)) return;
+    std::vector<ValueId> operands = function_.instructions[left ? x : y].operands;
+    ValueId addend = left ? y : x;
+    if (is_difference) {
+      ValueId& negated = left ? addend : operands[0];
+      negated = append(Op::Neg, function_.instructions[negated].type, {negated}, id, result);
     }
-    result.push_back(id);
-    return true;
-  });
-}
+    operands.push_back(addend);
+    become_fma(id, std::move(operands));
+  }
+
+  void fuse_mix(ValueId id, std::vector<ValueId>& result) {
+    const std::vector<ValueId> operands = function_.instructions[id].operands;
+    const ValueType type = function_.instructions[id].type;
+    const std::vector<float> way =
+        differences(constants_of(function_, operands[0]), constants_of(function_, operands[1]));
+    if (way.empty()) return;
+    std::vector<ValueId> parts;
+    for (const float part : way)
+      parts.push_back(append(Op::ConstNumber, ValueType::Number, {}, id, result, part));
+    // A number beside vectors counts for each component.
+    const auto widened = [&](std::vector<ValueId> values) {
+      const bool fits = values.size() == 1 && function_.instructions[values[0]].type == type;
+      return fits ? values[0] : append(Op::Construct, type, std::move(values), id, result);
+    };
+    const ValueId t = widened({operands[2]}), b = widened(std::move(parts)), a = widened({operands[0]});
+    become_fma(id, {t, b, a});
+  }
+
+  Function& function_;
+  std::vector<uint32_t> uses_; ///< of what the function had at the beginning
+  Waits waits_;
+};
 
 } // namespace
 
 void fuse(Module& module) {
   for (Function& function : module.functions) {
-    fuse(function);
+    Fusing(function).run();
     remove_dead_code(function);
   }
 }

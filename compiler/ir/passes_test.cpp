@@ -511,6 +511,45 @@ TEST(Fuse, ProductsWithAnotherUseStay) {
               Not(HasSubstr("fma")));
 }
 
+TEST(Fuse, OfTwoProductsThatWhichIsWaitedForLonger) {
+  const auto sum = [](Op op, bool exchanged) {
+    return fused([=](Builder& b, ValueId x, ValueId y, ValueId z) {
+      const ValueId late = b.binary(Op::Mul, b.binary(Op::Add, x, z), z), soon = b.binary(Op::Mul, x, y);
+      return exchanged ? b.binary(op, soon, late) : b.binary(op, late, soon);
+    });
+  };
+  const std::string_view factors = "%3: number = add %0, %2\n";
+  EXPECT_THAT(sum(Op::Add, false),
+              HasSubstr(std::string(factors) + "  %4: number = mul %0, %1\n  %5: number = fma %3, %2, %4"));
+  EXPECT_THAT(sum(Op::Add, true),
+              HasSubstr(std::string(factors) + "  %4: number = mul %0, %1\n  %5: number = fma %3, %2, %4"));
+  EXPECT_THAT(sum(Op::Sub, true), HasSubstr("%5: number = neg %3\n  %6: number = fma %5, %2, %4"));
+}
+
+TEST(Fuse, MixOfConstantsMovesFromOneToTheOther) {
+  const auto mix = [](double from, double to) {
+    return fused([=](Builder& b, ValueId x, ValueId, ValueId) {
+      return b.call_library(library_overloads("mix")[0], Number, {b.number(from), b.number(to), x});
+    });
+  };
+  EXPECT_THAT(mix(0.25, 1), HasSubstr("const.n 0.25\n  %2: number = const.n 0.75\n  %3: number = fma %0, %2, %1"));
+  // Adding the difference to the one gives the other in float for all but very different numbers.
+  EXPECT_THAT(mix(0.42, 0.66), HasSubstr("fma"));
+  EXPECT_THAT(mix(1, 1e-9), Not(HasSubstr("fma")));
+  EXPECT_THAT(mix(-3e38, 3e38), Not(HasSubstr("fma")));
+  EXPECT_THAT(mix(INFINITY, 1), Not(HasSubstr("fma")));
+}
+
+TEST(Fuse, MixOfVectorsTakesOneNumberForEachComponent) {
+  Module module = module_of({Number}, {Vec3}, [&](Builder& b) {
+    const ValueId from = b.construct(Vec3, {b.number(0), b.number(0.5), b.number(1)});
+    b.return_values({b.call_library(library_overloads("mix")[0], Vec3, {from, b.number(1), b.argument(0)})});
+  });
+  fuse(module);
+  EXPECT_THAT(text_of(module), HasSubstr("fma"));
+  EXPECT_TRUE(verify(module).empty());
+}
+
 /// A counted loop as `build` makes it: `for i = start, limit, step do step end`, where break_if(counter) leaves.
 Module counted_loop(ValueType type, const std::function<ValueId(Builder&)>& start,
                     const std::function<ValueId(Builder&, ValueId)>& leaves,
