@@ -46,10 +46,9 @@ template <class L> struct NoiseWithCurvature {
 /// The Laplacian of t^4 ramp(d) with t = 1/2 - d^2 is t^2 (24 - 88 t) ramp(d).
 template <class L> struct SumWithCurvature : SumWithGradient<L, 3> {
   L bends = constant<L>(0);
-  MS_INLINE void add(L kernel, L cube, L height, const Vec<3, L>& d, const Ramp<L, 3>& ramp) {
-    SumWithGradient<L, 3>::add(kernel, cube, height, d, ramp);
-    L t = kernel_root(d, 0.5);
-    bends = madd(t * t * madd(t, -88.0, constant<L>(24)), height, bends);
+  MS_INLINE void add(L t, const Vec<3, L>& d, const Ramp<L, 3>& ramp) {
+    SumWithGradient<L, 3>::add(t, d, ramp);
+    bends = madd(t * t * madd(t, -88.0, constant<L>(24)), ramp.at(d), bends);
   }
 };
 template <class L> MS_INLINE NoiseWithCurvature<L> noise_with_curvature(const Vec<3, L>& p) {

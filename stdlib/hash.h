@@ -81,6 +81,24 @@ template <class L> MS_INLINE Mask<L> hash_is_set(UInt32<L> hash, uint32_t bits) 
   return to_mask<L>((hash & UInt32<L>(bits)) != UInt32<L>(0u));
 }
 
+/// The sign bit of a number, taken from bit 31 of the hash.
+template <class L> MS_INLINE Bits<L> sign_from(UInt32<L> hash) {
+  if constexpr (is_f32<L>)
+    return hash & UInt32<L>(0x80000000u);
+  else
+    return convert<Bits<L>>(hash & UInt32<L>(0x80000000u)) << Bits<L>(uint64_t(32));
+}
+
+/// A bit of the hash as a mask. (Shifts of the hash to the left would be made multiplications by the optimiser.)
+template <class L> MS_INLINE Mask<L> hash_bit(UInt32<L> hash, int bit) {
+  return hash_is_set<L>(hash, uint32_t(1) << bit);
+}
+
+/// The same from another bit.
+template <class L> MS_INLINE Bits<L> sign_from_bit(UInt32<L> hash, int bit) {
+  return select(hash_bit<L>(hash, bit), sign_bit<L>(), Bits<L>(0));
+}
+
 /// The last step of a lattice point's hash, from the exclusive or of its coordinates u times their primes: the square,
 /// of which the upper half is good. Nearer to independent than a product with a constant, which keeps the differences
 /// along a row.

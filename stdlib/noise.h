@@ -19,25 +19,8 @@
 
 namespace moonshade::stdlib {
 
-/// The sign bit of a number, taken from bit 31 of the hash.
-template <class L> MS_INLINE Bits<L> sign_from(UInt32<L> hash) {
-  if constexpr (is_f32<L>)
-    return hash & UInt32<L>(0x80000000u);
-  else
-    return convert<Bits<L>>(hash & UInt32<L>(0x80000000u)) << Bits<L>(uint64_t(32));
-}
-
-/// A bit of the hash as a mask. (Shifts of the hash to the left would be made multiplications by the optimiser.)
-template <class L> MS_INLINE Mask<L> hash_bit(UInt32<L> hash, int bit) {
-  return hash_is_set<L>(hash, uint32_t(1) << bit);
-}
-
-/// The same from another bit.
-template <class L> MS_INLINE Bits<L> sign_from_bit(UInt32<L> hash, int bit) {
-  return select(hash_bit<L>(hash, bit), sign_bit<L>(), Bits<L>(0));
-}
-
-// Ramps: `at` gives the value at a distance from the corner; a Gradients adds up gradients, each times a weight.
+// Ramps: `at` gives the value at a distance from the corner. Scaled is a weight times the ramp: `at` gives its value,
+// and a Gradients adds up scaled ones, each times one number more. (Adding begins at -0, which changes no addend.)
 
 /// The ramp x m, m in -1 .. 1.
 template <class L> struct Ramp1 {
@@ -46,9 +29,14 @@ template <class L> struct Ramp1 {
       : slope(madd(convert<L>(convert<Int32<L>>(hash >> UInt32<L>(24u))), 2.0 / 255, constant<L>(-1))) {}
   MS_INLINE L at(Vec<1, L> d) const { return d[0] * slope; }
 
+  struct Scaled {
+    L slope;
+    MS_INLINE Scaled(const Ramp1& ramp, L weight) : slope(weight * ramp.slope) {}
+    MS_INLINE L at(Vec<1, L> d) const { return d[0] * slope; }
+  };
   struct Gradients {
-    L x = constant<L>(0);
-    MS_INLINE void add(L weight, const Ramp1& ramp) { x = madd(weight, ramp.slope, x); }
+    L x = constant<L>(-0.0);
+    MS_INLINE void add(L times, const Scaled& scaled) { x = madd(times, scaled.slope, x); }
     MS_INLINE Vec<1, L> sum() const { return {{x}}; }
   };
 };
@@ -65,12 +53,20 @@ template <class L> struct Ramp2 {
     return madd(flip_sign(v, short_sign), kShort, flip_sign(u, sign));
   }
 
-  struct Gradients {
-    L x = constant<L>(0), y = x;
-    MS_INLINE void add(L weight, const Ramp2& ramp) {
+  struct Scaled {
+    L x, y;
+    MS_INLINE Scaled(const Ramp2& ramp, L weight) {
       L u = flip_sign(weight, ramp.sign), v = flip_sign(weight * constant<L>(kShort), ramp.short_sign);
-      x = x + select(ramp.swap, v, u);
-      y = y + select(ramp.swap, u, v);
+      x = select(ramp.swap, v, u);
+      y = select(ramp.swap, u, v);
+    }
+    MS_INLINE L at(Vec<2, L> d) const { return madd(d[1], y, d[0] * x); }
+  };
+  struct Gradients {
+    L x = constant<L>(-0.0), y = x;
+    MS_INLINE void add(L times, const Scaled& scaled) {
+      x = madd(times, scaled.x, x);
+      y = madd(times, scaled.y, y);
     }
     MS_INLINE Vec<2, L> sum() const { return {{x, y}}; }
   };
@@ -79,29 +75,43 @@ template <class L> struct Ramp2 {
 /// One of a cube's twelve edges: two of the three components, with either signs. The upper bit of the hash and one
 /// further down give the signs, the others which components.
 template <class L> struct Ramp3 {
-  Mask<L> first_is_y, second_is_z;
+  Mask<L> first_is_x, second_is_y;
   Bits<L> first_sign, second_sign;
   MS_INLINE explicit Ramp3(UInt32<L> hash) : first_sign(sign_from<L>(hash)), second_sign(sign_from_bit<L>(hash, 22)) {
     Int32<L> place = convert<Int32<L>>(hash & UInt32<L>(0x7fffffffu));
-    first_is_y = to_mask<L>(place < Int32<L>(0x2aaaaaab));
-    second_is_z = to_mask<L>(place < Int32<L>(0x55555555));
+    first_is_x = to_mask<L>(place > Int32<L>(0x2aaaaaaa));
+    second_is_y = to_mask<L>(place > Int32<L>(0x55555554));
   }
-  MS_INLINE L at(Vec<3, L> d) const {
-    L u = select(first_is_y, d[1], d[0]), v = select(second_is_z, d[2], d[1]);
-    return flip_sign(u, first_sign) + flip_sign(v, second_sign);
+  /// Along the edge.
+  MS_INLINE Vec<2, L> components(const Vec<3, L>& d) const {
+    return {{select(first_is_x, d[0], d[1]), select(second_is_y, d[1], d[2])}};
+  }
+  MS_INLINE L at(const Vec<3, L>& d) const {
+    const Vec<2, L> along = components(d);
+    return flip_sign(along[0], first_sign) + flip_sign(along[1], second_sign);
   }
 
-  /// All firsts, those along y, all seconds, those along z: what masked additions do best.
-  struct Gradients {
-    L first = constant<L>(0), y = first, second = first, z = first;
-    MS_INLINE void add(L weight, const Ramp3& ramp) {
-      L u = flip_sign(weight, ramp.first_sign), v = flip_sign(weight, ramp.second_sign);
-      first = first + u;
-      y = select(ramp.first_is_y, y + u, y);
-      second = second + v;
-      z = select(ramp.second_is_z, z + v, z);
+  struct Scaled {
+    const Ramp3& ramp;
+    L first, second;
+    MS_INLINE Scaled(const Ramp3& of, L weight)
+        : ramp(of), first(flip_sign(weight, of.first_sign)), second(flip_sign(weight, of.second_sign)) {}
+    MS_INLINE L at(const Vec<3, L>& d) const {
+      const Vec<2, L> along = ramp.components(d);
+      return madd(along[1], second, along[0] * first);
     }
-    MS_INLINE Vec<3, L> sum() const { return {{first - y, y + (second - z), z}}; }
+  };
+  /// All firsts, those along x, all seconds, those along y: what masked additions do best, with the masks that
+  /// processors compare to.
+  struct Gradients {
+    L first = constant<L>(-0.0), x = first, second = first, y = first;
+    MS_INLINE void add(L times, const Scaled& scaled) {
+      first = madd(times, scaled.first, first);
+      x = select(scaled.ramp.first_is_x, madd(times, scaled.first, x), x);
+      second = madd(times, scaled.second, second);
+      y = select(scaled.ramp.second_is_y, madd(times, scaled.second, y), y);
+    }
+    MS_INLINE Vec<3, L> sum() const { return {{x, (first - x) + y, second - y}}; }
   };
 };
 
@@ -115,21 +125,35 @@ template <class L> struct Ramp4 {
     not_x = !upper & !odd;
     not_w = upper & odd;
   }
-  MS_INLINE L at(Vec<4, L> d) const {
-    L u = select(not_x, d[1], d[0]), v = select(upper, d[1], d[2]), w = select(not_w, d[2], d[3]);
-    return flip_sign(u, sign[0]) + flip_sign(v, sign[1]) + flip_sign(w, sign[2]);
+  /// Along the edge.
+  MS_INLINE Vec<3, L> components(const Vec<4, L>& d) const {
+    return {{select(not_x, d[1], d[0]), select(upper, d[1], d[2]), select(not_w, d[2], d[3])}};
+  }
+  MS_INLINE L at(const Vec<4, L>& d) const {
+    const Vec<3, L> along = components(d);
+    return flip_sign(along[0], sign[0]) + flip_sign(along[1], sign[1]) + flip_sign(along[2], sign[2]);
   }
 
+  struct Scaled {
+    const Ramp4& ramp;
+    L first, second, last;
+    MS_INLINE Scaled(const Ramp4& of, L weight)
+        : ramp(of), first(flip_sign(weight, of.sign[0])), second(flip_sign(weight, of.sign[1])),
+          last(flip_sign(weight, of.sign[2])) {}
+    MS_INLINE L at(const Vec<4, L>& d) const {
+      const Vec<3, L> along = ramp.components(d);
+      return madd(along[2], last, madd(along[1], second, along[0] * first));
+    }
+  };
   struct Gradients {
-    L first = constant<L>(0), y = first, z = first, last = first, second = first, third = first;
-    MS_INLINE void add(L weight, const Ramp4& ramp) {
-      L u = flip_sign(weight, ramp.sign[0]), v = flip_sign(weight, ramp.sign[1]), w = flip_sign(weight, ramp.sign[2]);
-      first = first + u;
-      y = select(ramp.not_x, y + u, y); // those of the firsts along y
-      second = second + v;
-      third = select(ramp.upper, third + v, third); // those of the seconds along y
-      last = last + w;
-      z = select(ramp.not_w, z + w, z); // those of the lasts along z
+    L first = constant<L>(-0.0), y = first, z = first, last = first, second = first, third = first;
+    MS_INLINE void add(L times, const Scaled& scaled) {
+      first = madd(times, scaled.first, first);
+      y = select(scaled.ramp.not_x, madd(times, scaled.first, y), y); // those of the firsts along y
+      second = madd(times, scaled.second, second);
+      third = select(scaled.ramp.upper, madd(times, scaled.second, third), third); // those of the seconds along y
+      last = madd(times, scaled.last, last);
+      z = select(scaled.ramp.not_w, madd(times, scaled.last, z), z); // those of the lasts along z
     }
     MS_INLINE Vec<4, L> sum() const { return {{first - y, y + third, (second - third) + z, last - z}}; }
   };
@@ -141,22 +165,24 @@ using Ramp = std::conditional_t<N <= 2, std::conditional_t<N == 1, Ramp1<L>, Ram
 
 // What the corners add up to ------------------------------------------------------------------------------------------
 
-/// The sum alone, or with its gradient by the point: the distances d from the corners move as the point does, so the
-/// gradient of t^4 ramp(d) with t = reach - d^2 is t^4 ramp' - 8 t^3 ramp(d) d.
+/// The sum of t^4 ramp(d), t being the kernel's root, alone.
 template <class L, int N> struct Sum {
   L value = constant<L>(0);
-  MS_INLINE void add(L kernel, L, L height, const Vec<N, L>&, const Ramp<L, N>&) {
-    value = madd(kernel, height, value);
+  MS_INLINE void add(L t, const Vec<N, L>& d, const Ramp<L, N>& ramp) {
+    L square = t * t;
+    value = madd(square * square, ramp.at(d), value);
   }
 };
-template <class L, int N> struct SumWithGradient {
-  L value = constant<L>(0);
+/// The sum with its gradient by the point: the distances d from the corners move as the point does, so the gradient of
+/// t^4 ramp(d) with t = reach - d^2 is t^4 ramp' - 8 t^3 ramp(d) d, of which t^3 ramp is made first.
+template <class L, int N> struct SumWithGradient : Sum<L, N> {
   typename Ramp<L, N>::Gradients rises;
-  Vec<N, L> falls = map<N, L>([](L x) __attribute__((always_inline)) { return x; }, constant<L>(0));
-  MS_INLINE void add(L kernel, L cube, L height, const Vec<N, L>& d, const Ramp<L, N>& ramp) {
-    value = madd(kernel, height, value);
-    rises.add(kernel, ramp);
-    falls = madd(d, cube * height, falls);
+  Vec<N, L> falls = map<N, L>([](L x) __attribute__((always_inline)) { return x; }, constant<L>(-0.0));
+  MS_INLINE void add(L t, const Vec<N, L>& d, const Ramp<L, N>& ramp) {
+    Sum<L, N>::add(t, d, ramp);
+    typename Ramp<L, N>::Scaled scaled(ramp, t * t * t);
+    rises.add(t, scaled);
+    falls = madd(d, scaled.at(d), falls);
   }
   /// The gradient times a number.
   MS_INLINE Vec<N, L> gradient(double scale) const {
@@ -178,20 +204,15 @@ template <class L, int N> MS_INLINE L kernel_root(const Vec<N, L>& d, double rea
   return max(t, constant<L>(0));
 }
 
-/// The kernel, the fourth power of its root, times the ramp.
 template <class L, int N, class S> MS_INLINE void add_corner(UInt32<L> hash, const Vec<N, L>& d, double reach, S& sum) {
-  L t = kernel_root(d, reach), square = t * t;
-  Ramp<L, N> ramp(hash);
-  sum.add(square * square, square * t, ramp.at(d), d, ramp);
+  sum.add(kernel_root(d, reach), d, Ramp<L, N>(hash));
 }
 template <class L, int N, class S>
 MS_INLINE void add_corner(UInt32<L> hash, const Vec<N, L>& d, double reach, Three<S>& sum) {
-  L t = kernel_root(d, reach), square = t * t, kernel = square * square, cube = square * t;
+  L t = kernel_root(d, reach);
 #pragma clang loop unroll(full)
-  for (int which = 0; which < 3; ++which) {
-    Ramp<L, N> ramp(other_hash(hash, which));
-    sum.each[which].add(kernel, cube, ramp.at(d), d, ramp);
-  }
+  for (int which = 0; which < 3; ++which)
+    sum.each[which].add(t, d, Ramp<L, N>(other_hash(hash, which)));
 }
 
 /// In one dimension the corners are the integers and the kernel is (1 - d^2)^4.
