@@ -13,6 +13,8 @@
 #include "stdlib/tables.h"
 #include "stdlib/value_noise.h"
 
+#include <initializer_list>
+
 namespace moonshade::stdlib {
 
 /// The permutation, and again its beginning, so that an entry and the one after it are read together.
@@ -68,16 +70,49 @@ template <class U> MS_INLINE U permuted_pair(U i) {
   return result;
 }
 
-/// The reference's grad: one of twelve edges (four of them twice) by the lower four bits of the hash.
+/// For each hash below 16 in `set` its bit, counted from the uppermost down.
+consteval uint32_t bits_of_hashes(std::initializer_list<int> set) {
+  uint32_t bits = 0;
+  for (const int hash : set)
+    bits |= 0x80000000u >> hash;
+  return bits;
+}
+
+/// What the reference's grad adds up: one of twelve edges (four of them twice) by the lower four bits of the hash. Here
+/// the component of the earlier axis always is the first. A shift brings the hash's bit in a set to the sign's place.
+template <class L> struct PerlinTerms {
+  L first, second;
+  MS_INLINE PerlinTerms(UInt32<L> hash, L x, L y, L z) {
+    using U = UInt32<L>;
+    const U h = hash & U(15u);
+    const auto shifted = [&](uint32_t set) __attribute__((always_inline)) { return U(set) << h; };
+    const auto holds = [&](uint32_t set) __attribute__((always_inline)) {
+      return to_mask<L>(convert<Int32<L>>(shifted(set)) < Int32<L>(0));
+    };
+    constexpr uint32_t kFirstIsX = bits_of_hashes({0, 1, 2, 3, 4, 5, 6, 7, 12, 14});
+    constexpr uint32_t kSecondIsY = bits_of_hashes({0, 1, 2, 3, 12, 14});
+    constexpr uint32_t kFirstIsNegative = bits_of_hashes({1, 3, 5, 7, 9, 11, 13, 14, 15});
+    constexpr uint32_t kSecondIsNegative = bits_of_hashes({2, 3, 6, 7, 10, 11, 15});
+    first = flip_sign(select(holds(kFirstIsX), x, y), sign_from<L>(shifted(kFirstIsNegative)));
+    second = flip_sign(select(holds(kSecondIsY), y, z), sign_from<L>(shifted(kSecondIsNegative)));
+  }
+};
 template <class L> MS_INLINE L perlin_ramp(UInt32<L> hash, L x, L y, L z) {
-  using U = UInt32<L>;
-  U h = hash & U(15u);
-  L u = select(to_mask<L>(h < U(8u)), x, y);
-  L v = select(to_mask<L>(h < U(4u)), y, select(to_mask<L>((h | U(2u)) == U(14u)), x, z));
-  return flip_sign(u, sign_from<L>(hash << U(31u))) + flip_sign(v, sign_from<L>((hash & U(2u)) << U(30u)));
+  const PerlinTerms<L> terms(hash, x, y, z);
+  return terms.first + terms.second;
 }
 
 template <class L> MS_INLINE L perlin_lerp(L t, L a, L b) { return madd(t, b - a, a); }
+
+/// From `a` to the ramp. In float the difference is taken first from the component of the last axis, as
+/// `perlin_product_less` does.
+template <class L> MS_INLINE L perlin_lerp_to_ramp(L t, L a, UInt32<L> hash, L x, L y, L z) {
+  const PerlinTerms<L> terms(hash, x, y, z);
+  if constexpr (is_f32<L>)
+    return madd(t, terms.first + (terms.second - a), a);
+  else
+    return perlin_lerp(t, a, terms.first + terms.second);
+}
 
 // Where a machine has tables in registers (tables.h) they give both: the permutation at the four bytes of a lane, and
 // the three coefficients of a corner's gradient. All look-ups of a cell are then four.
@@ -103,42 +138,52 @@ template <class L> MS_INLINE L perlin_product(UInt32<L> hash, L x, L y, L z) {
   const L c = table_of_16<L>(kPerlinEdges.z, hash);
   return madd(a, x, madd(b, y, c * z));
 }
+/// The same less a number, by as many operations.
+template <class L> MS_INLINE L perlin_product_less(L less, UInt32<L> hash, L x, L y, L z) {
+  const L a = table_of_16<L>(kPerlinEdges.x, hash), b = table_of_16<L>(kPerlinEdges.y, hash);
+  const L c = table_of_16<L>(kPerlinEdges.z, hash);
+  return madd(a, x, madd(b, y, madd(c, z, -less)));
+}
 
-template <class L>
-MS_INLINE L perlin_by_tables(UInt32<L> cx, UInt32<L> cy, UInt32<L> cz, Vec<3, L> d, Vec<3, L> fades) {
+/// Everything is made where it is first needed: there are not registers enough for all of it.
+template <class L> MS_INLINE L perlin_by_tables(UInt32<L> cx, UInt32<L> cy, UInt32<L> cz, L x, L y, L z) {
   using U = UInt32<L>;
-  L x = d[0], y = d[1], z = d[2], one = constant<L>(1), u = fades[0], v = fades[1];
-  L x1 = x - one, y1 = y - one, z1 = z - one;
+  L one = constant<L>(1);
   // The bytes of a lane are the corners (0, 0), (0, 1), (1, 0), (1, 1) of x and y.
   U a = table_of_256(kPerlinTable.entry, add_bytes(fourfold(cx), U(0x01010000u)));
   U ab = table_of_256(kPerlinTable.entry, add_bytes(a, add_bytes(fourfold(cy), U(0x01000100u))));
   U at = add_bytes(ab, fourfold(cz));
   const auto side = [&](U hash, L z) __attribute__((always_inline)) {
-    return perlin_lerp(
-        v, perlin_lerp(u, perlin_product(hash, x, y, z), perlin_product(hash >> U(16u), x1, y, z)),
-        perlin_lerp(u, perlin_product(hash >> U(8u), x, y1, z), perlin_product(hash >> U(24u), x1, y1, z)));
+    const auto row = [&](U left, U right, L y) __attribute__((always_inline)) {
+      L a = perlin_product(left, x, y, z);
+      return madd(fade(x), perlin_product_less(a, right, x - one, y, z), a);
+    };
+    L low = row(hash, hash >> U(16u), y), high = row(hash >> U(8u), hash >> U(24u), y - one);
+    return perlin_lerp(fade(y), low, high);
   };
   L near = side(table_of_256(kPerlinTable.entry, at), z);
-  L far = side(table_of_256(kPerlinTable.entry, add_bytes(at, U(0x01010101u))), z1);
-  return perlin_lerp(fades[2], near, far);
+  L far = side(table_of_256(kPerlinTable.entry, add_bytes(at, U(0x01010101u))), z - one);
+  return perlin_lerp(fade(z), near, far);
 }
 
 template <class L> MS_INLINE L perlin(Vec<3, L> p) {
   using U = UInt32<L>;
   L i = floor(p[0]), j = floor(p[1]), k = floor(p[2]);
-  L x = p[0] - i, y = p[1] - j, z = p[2] - k, one = constant<L>(1), zero = constant<L>(0);
-  L u = fade(x), v = fade(y), w = fade(z), x1 = x - one, y1 = y - one, z1 = z - one;
-  U cx = lattice(i), cy = lattice(j), cz = lattice(k), byte = U(8u), low = U(255u);
+  L x = p[0] - i, y = p[1] - j, z = p[2] - k, zero = constant<L>(0);
+  U cx = lattice(i), cy = lattice(j), cz = lattice(k);
   if constexpr (has_tables<L>)
-    if (moonshade_target_has_tables()) return perlin_by_tables<L>(cx, cy, cz, {{x, y, z}}, {{u, v, w}}) + zero;
+    if (moonshade_target_has_tables()) return perlin_by_tables<L>(cx, cy, cz, x, y, z) + zero;
+  L one = constant<L>(1), u = fade(x), v = fade(y), w = fade(z), x1 = x - one, y1 = y - one, z1 = z - one;
+  U byte = U(8u), low = U(255u);
   U ab = permuted_pair(cx);
   U aa_ab = permuted_pair((ab & low) + cy), ba_bb = permuted_pair((ab >> byte) + cy);
   U aa = permuted_pair((aa_ab & low) + cz), aab = permuted_pair((aa_ab >> byte) + cz);
   U ba = permuted_pair((ba_bb & low) + cz), bab = permuted_pair((ba_bb >> byte) + cz);
-  L near = perlin_lerp(v, perlin_lerp(u, perlin_ramp(aa, x, y, z), perlin_ramp(ba, x1, y, z)),
-                       perlin_lerp(u, perlin_ramp(aab, x, y1, z), perlin_ramp(bab, x1, y1, z)));
-  L far = perlin_lerp(v, perlin_lerp(u, perlin_ramp(aa >> byte, x, y, z1), perlin_ramp(ba >> byte, x1, y, z1)),
-                      perlin_lerp(u, perlin_ramp(aab >> byte, x, y1, z1), perlin_ramp(bab >> byte, x1, y1, z1)));
+  const auto row = [&](U left, U right, L y, L z) __attribute__((always_inline)) {
+    return perlin_lerp_to_ramp(u, perlin_ramp(left, x, y, z), right, x1, y, z);
+  };
+  L near = perlin_lerp(v, row(aa, ba, y, z), row(aab, bab, y1, z));
+  L far = perlin_lerp(v, row(aa >> byte, ba >> byte, y, z1), row(aab >> byte, bab >> byte, y1, z1));
   return perlin_lerp(w, near, far) + zero; // a zero is +0, however it came about
 }
 
