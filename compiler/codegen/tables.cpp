@@ -3,7 +3,6 @@
 
 #include <llvm/IR/IRBuilder.h>
 #include <llvm/IR/IntrinsicsX86.h>
-#include <llvm/MC/MCSubtargetInfo.h>
 
 #include <array>
 
@@ -64,7 +63,7 @@ void define_16(llvm::Function& function, unsigned lanes) {
 } // namespace
 
 bool has_tables(const Target& target) {
-  return target.vector_bits == 512 && target.machine->getMCSubtargetInfo()->checkFeatures("+avx512vbmi");
+  return target.vector_bits == 512 && has_feature(target, "avx512vbmi");
 }
 
 void define_tables(llvm::Module& module, const Target& target) {

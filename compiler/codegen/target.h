@@ -30,6 +30,9 @@ struct Target {
 
 Target make_target(const TargetOptions& options);
 
+/// Whether the processor has a feature of this name of LLVM's.
+bool has_feature(const Target& target, std::string_view feature);
+
 /// Whether code for a processor of this name (NativeExports::processor) runs on the target.
 bool runs_code_of(const Target& target, std::string_view processor);
 
