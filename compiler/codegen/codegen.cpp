@@ -6,6 +6,7 @@
 #include "compiler/codegen/entry.h"
 #include "compiler/codegen/fold_scales.h"
 #include "compiler/codegen/link.h"
+#include "compiler/codegen/load_constants.h"
 #include "compiler/codegen/native_calls.h"
 #include "compiler/codegen/pipeline.h"
 #include "compiler/codegen/split_lanes.h"
@@ -136,6 +137,8 @@ void emit_module(Generated& generated, const ir::Module& module, const Options& 
   ModuleEmitter emitter(*parts.module, module, domain, attributes, places);
   info.print_slot = emitter.layout.size; // the layout is aligned
   info.image_slot = emitter.image_slot = info.print_slot + sizeof(void*);
+  emitter.calls_exports = options.optimization == 0 && options.library_calls == LibraryCalls::All &&
+                          has_native_calls(parts.target, info.precision, info.width);
   if (options.prints) {
     emitter.prints = &info.prints;
     emitter.print_slot = info.print_slot;
@@ -153,6 +156,7 @@ void emit_module(Generated& generated, const ir::Module& module, const Options& 
     info.init_symbol = "moonshade_init";
     ModuleEmitter init(*parts.module, module, single, attributes, places);
     init.image_slot = info.image_slot;
+    init.calls_exports = emitter.calls_exports;
     emit_init(init, info.init_symbol);
   }
   for (const ir::Instruction* place : places.places) {
@@ -241,12 +245,13 @@ Generated generate(const ir::Module& module, const Options& options) {
   generated.times.emit = watch.lap();
   if (!generated.error.empty()) return generated;
   const bool too_costly = module.entries.size() > kManyEntries || has_tangled_function(*parts.module);
-  optimize(*parts.module, *parts.target.machine, too_costly ? 0 : options.optimization);
+  optimize(*parts.module, *parts.target.machine, too_costly ? kInlineOnly : options.optimization);
   const bool costly = too_costly || has_large_function(*parts.module);
   if (costly) {
     parts.target.machine->setOptLevel(llvm::CodeGenOptLevel::None);
     cut_long_blocks(*parts.module);
   }
+  if (costly || options.optimization == 0) load_constants(*parts.module);
   if (!costly && options.optimization > 0) {
     fold_scales(*parts.module);
     split_lanes(*parts.module, generated.info.width, best_width(parts.target, options.precision));

@@ -13,40 +13,60 @@ namespace {
 constexpr uint32_t kAllResults = ~0U;
 bool is_wanted(uint32_t wanted, unsigned result) { return result >= 32 || (wanted >> result & 1) != 0; }
 
-/// The body of a function by value around an export, which takes pointers (library.h). Results that nobody wants are
-/// zero.
-void write_wrapper(llvm::Function& wrapper, llvm::Function& body, const LibraryFunction& row, const Domain& domain,
-                   bool varying, uint32_t wanted) {
-  Builder builder(llvm::BasicBlock::Create(domain.context, "entry", &wrapper));
+/// Calls an export, which takes pointers (library.h): the parts of its results. Those that nobody wants are zero.
+llvm::SmallVector<llvm::Value*, 4> call_export(Builder& builder, llvm::function_ref<llvm::Value*(llvm::Type*)> allocate,
+                                               llvm::Function& body, const LibraryFunction& row, const Domain& domain,
+                                               bool varying, uint32_t wanted, llvm::ArrayRef<llvm::Value*> arguments) {
   const auto memory = [&](ValueType type) {
-    return builder.CreateAlloca(llvm::ArrayType::get(domain.memory_part(type, varying), component_count(type)));
+    llvm::Type* part = domain.memory_part(type, varying);
+    const unsigned count = component_count(type);
+    return allocate(count == 1 ? part : llvm::ArrayType::get(part, count)); // one is soon a register
   };
   const auto element = [&](ValueType type, llvm::Value* array, unsigned component) {
+    if (component == 0) return array;
     return builder.CreateConstInBoundsGEP1_64(domain.memory_part(type, varying), array, component);
   };
-  std::vector<llvm::Value*> pointers;
+  llvm::SmallVector<llvm::Value*, 8> pointers;
   for (unsigned i = 0; i < row.result_count; ++i)
     if (is_wanted(wanted, i))
       pointers.push_back(memory(row.results[i]));
     else
       pointers.push_back(llvm::ConstantPointerNull::get(builder.getPtrTy()));
-  llvm::Argument* argument = wrapper.arg_begin();
+  const auto* argument = arguments.begin();
   for (unsigned i = 0; i < row.parameter_count; ++i) {
     const ValueType type = row.parameters[i];
     pointers.push_back(memory(type));
     for (unsigned c = 0; c < component_count(type); ++c)
-      builder.CreateStore(to_memory(builder, domain, type, argument++), element(type, pointers.back(), c));
+      builder.CreateStore(to_memory(builder, domain, type, *argument++), element(type, pointers.back(), c));
   }
   builder.CreateCall(&body, pointers);
-  llvm::Value* result = llvm::Constant::getNullValue(wrapper.getReturnType());
-  unsigned part = 0;
-  for (unsigned i = 0; i < row.result_count; ++i)
-    for (unsigned c = 0; c < component_count(row.results[i]); ++c, ++part) {
-      if (!is_wanted(wanted, i)) continue;
-      llvm::Value* loaded =
-          builder.CreateLoad(domain.memory_part(row.results[i], varying), element(row.results[i], pointers[i], c));
-      result = builder.CreateInsertValue(result, from_memory(builder, row.results[i], loaded), part);
+  llvm::SmallVector<llvm::Value*, 4> parts;
+  for (unsigned i = 0; i < row.result_count; ++i) {
+    const ValueType type = row.results[i];
+    for (unsigned c = 0; c < component_count(type); ++c) {
+      if (!is_wanted(wanted, i)) {
+        parts.push_back(llvm::Constant::getNullValue(domain.part(type, varying)));
+        continue;
+      }
+      llvm::Value* loaded = builder.CreateLoad(domain.memory_part(type, varying), element(type, pointers[i], c));
+      parts.push_back(from_memory(builder, type, loaded));
     }
+  }
+  return parts;
+}
+
+/// The body of a function by value around an export.
+void write_wrapper(llvm::Function& wrapper, llvm::Function& body, const LibraryFunction& row, const Domain& domain,
+                   bool varying, uint32_t wanted) {
+  Builder builder(llvm::BasicBlock::Create(domain.context, "entry", &wrapper));
+  llvm::SmallVector<llvm::Value*, 8> arguments;
+  for (llvm::Argument& argument : wrapper.args())
+    arguments.push_back(&argument);
+  const auto allocate = [&](llvm::Type* type) { return builder.CreateAlloca(type); };
+  const auto parts = call_export(builder, allocate, body, row, domain, varying, wanted, arguments);
+  llvm::Value* result = llvm::Constant::getNullValue(wrapper.getReturnType());
+  for (unsigned part = 0; part < parts.size(); ++part)
+    if (!llvm::isa<llvm::Constant>(parts[part])) result = builder.CreateInsertValue(result, parts[part], part);
   builder.CreateRet(result);
 }
 
@@ -128,23 +148,32 @@ void write_lane_loop(llvm::Function& wrapper, llvm::Function& body, const Librar
 
 } // namespace
 
-llvm::Function* ModuleEmitter::library_function(const LibraryFunction& row, bool varying, uint32_t wanted) {
+/// Which results the code asks for: those of `wanted`, or all.
+static uint32_t asked_results(const LibraryFunction& row, uint32_t wanted) {
   const uint32_t all = row.result_count < 32 ? (1U << row.result_count) - 1 : kAllResults;
-  if ((wanted & all) == all || is_derivative_export(row.symbol)) wanted = kAllResults; // derivatives take no null
+  if ((wanted & all) == all || is_derivative_export(row.symbol)) return kAllResults; // derivatives take no null
+  return wanted & all;
+}
+
+llvm::Function* ModuleEmitter::library_export(const LibraryFunction& row, bool varying) {
   const bool lane_by_lane = export_order(row.symbol) == 2;
-  const unsigned width = varying ? domain.width : 1;
-  const std::string name = std::string(row.symbol) + export_ending(domain.precision, width);
-  const std::string own_name = "moonshade_" + name + (wanted == kAllResults ? "" : "_" + std::to_string(wanted & all));
-  if (llvm::Function* known = llvm_module.getFunction(own_name)) return known;
-  llvm::Type* pointer = llvm::PointerType::get(domain.context, 0);
+  const std::string name =
+      "ms_" + std::string(row.symbol) + export_ending(domain.precision, varying && !lane_by_lane ? domain.width : 1);
+  if (llvm::Function* known = llvm_module.getFunction(name)) return known;
   const size_t count =
       lane_by_lane ? 1 + LibraryFunction::kMaxParameters : size_t{row.result_count} + row.parameter_count;
-  const std::vector<llvm::Type*> pointers(count, pointer);
-  llvm::Type* nothing = llvm::Type::getVoidTy(domain.context);
-  const std::string export_name =
-      "ms_" + std::string(row.symbol) + export_ending(domain.precision, lane_by_lane ? 1 : width);
-  llvm::Function* body = llvm_module.getFunction(export_name);
-  if (body == nullptr) body = new_function(llvm::FunctionType::get(nothing, pointers, false), export_name, false);
+  const std::vector<llvm::Type*> pointers(count, llvm::PointerType::get(domain.context, 0));
+  return new_function(llvm::FunctionType::get(llvm::Type::getVoidTy(domain.context), pointers, false), name, false);
+}
+
+llvm::Function* ModuleEmitter::library_function(const LibraryFunction& row, bool varying, uint32_t wanted) {
+  wanted = asked_results(row, wanted);
+  const bool lane_by_lane = export_order(row.symbol) == 2;
+  const std::string own_name = "moonshade_" + std::string(row.symbol) +
+                               export_ending(domain.precision, varying ? domain.width : 1) +
+                               (wanted == kAllResults ? "" : "_" + std::to_string(wanted));
+  if (llvm::Function* known = llvm_module.getFunction(own_name)) return known;
+  llvm::Function* body = library_export(row, varying);
   std::vector<llvm::Type*> results, parameters;
   for (unsigned i = 0; i < row.result_count; ++i)
     results.insert(results.end(), component_count(row.results[i]), domain.part(row.results[i], varying));
@@ -175,12 +204,24 @@ std::vector<Lanes> FunctionEmitter::library_call(const LibraryFunction& row, con
   for (const Lanes& argument : arguments)
     for (llvm::Value* part : argument.parts)
       operands.push_back(varying ? broadcast(builder, domain_, part) : part);
-  llvm::Value* result = builder.CreateCall(owner_.library_function(row, varying, wanted), operands);
+  llvm::SmallVector<llvm::Value*, 4> parts;
+  if (owner_.calls_exports && export_order(row.symbol) < 2) {
+    const auto allocate = [&](llvm::Type* type) { return masks.allocate(type, "memory"); };
+    parts = call_export(builder, allocate, *owner_.library_export(row, varying), row, domain_, varying,
+                        asked_results(row, wanted), operands);
+  } else {
+    llvm::Value* result = builder.CreateCall(owner_.library_function(row, varying, wanted), operands);
+    unsigned count = 0;
+    for (unsigned i = 0; i < row.result_count; ++i)
+      count += component_count(row.results[i]);
+    for (unsigned part = 0; part < count; ++part)
+      parts.push_back(builder.CreateExtractValue(result, part));
+  }
   std::vector<Lanes> results(row.result_count);
-  unsigned part = 0;
+  const auto* part = parts.begin();
   for (unsigned i = 0; i < row.result_count; ++i)
     for (unsigned c = 0; c < component_count(row.results[i]); ++c)
-      results[i].parts.push_back(builder.CreateExtractValue(result, part++));
+      results[i].parts.push_back(*part++);
   return results;
 }
 

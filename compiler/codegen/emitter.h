@@ -88,6 +88,8 @@ public:
   /// The library function for lanes or, with `varying` false, for one value: by value, pure.
   /// `wanted`: a bit for each of the row's results that is used.
   llvm::Function* library_function(const LibraryFunction& row, bool varying, uint32_t wanted);
+  /// The export behind it, by pointers: declared only.
+  llvm::Function* library_export(const LibraryFunction& row, bool varying);
   /// The type of the results, as outlined functions give them back.
   llvm::Type* results_type(const ir::Function& function, const ir::Uniformity& uniformity) const;
   uint32_t place(const ir::Instruction& instruction) const { return places_.numbers.at(&instruction); }
@@ -105,6 +107,8 @@ public:
   std::vector<PrintPlaceInfo>* prints = nullptr;
   uint64_t print_slot = 0;
   uint64_t image_slot = 0; ///< where code finds the instance's images
+  /// Exports are called at once, without a function by value around them: for code that nobody optimises.
+  bool calls_exports = false;
   /// While the init function is emitted, globals are not constant.
   bool constants_are_final = true;
 

@@ -17,6 +17,8 @@ namespace {
 constexpr std::string_view kPrefix = "native_";
 /// Instructions of bitcode up to which a function is always inlined: a call would be no shorter.
 constexpr size_t kSmall = 40;
+/// LibraryCalls::All: what a small function may come to at all its calls together.
+constexpr size_t kRepeated = 200;
 /// LibraryCalls::Large: what all others may come to in a shader without one of them being called. It has room for one
 /// evaluation of noise, where a call would be felt; a shader with more than that compiles for milliseconds otherwise,
 /// and has so much to compute that calls hardly count.
@@ -67,6 +69,14 @@ void call(llvm::Function& function) {
 
 } // namespace
 
+bool has_native_calls(const Target& target, Precision precision, unsigned width) {
+  const auto has = [&](unsigned lanes) {
+    const NativeExports domain = native_exports(precision, lanes, false);
+    return !domain.exports.empty() && runs_code_of(target, domain.processor);
+  };
+  return target.native && has(width) && (width == 1 || has(1));
+}
+
 void choose_native_calls(llvm::Module& module, const Target& target, LibraryCalls calls) {
   if (calls == LibraryCalls::None || !target.native) return;
   CodeThatRuns native(target);
@@ -75,8 +85,10 @@ void choose_native_calls(llvm::Module& module, const Target& target, LibraryCall
   // Look-ups in registers are twice as fast as machine code that gathers.
   const bool keeps_tables = calls == LibraryCalls::Large && has_tables(target);
   for (llvm::Function& function : module)
-    if (const NativeExport* code = native.find(function);
-        code != nullptr && code->instructions > kSmall && !(keeps_tables && code->asks_for_tables != 0)) {
+    if (const NativeExport* code = native.find(function); code != nullptr) {
+      const bool repeated = calls == LibraryCalls::All && code->instructions * function.getNumUses() > kRepeated;
+      if (code->instructions <= kSmall && !repeated) continue;
+      if (keeps_tables && code->asks_for_tables != 0) continue;
       large.push_back(&function);
       sum += code->instructions;
     }

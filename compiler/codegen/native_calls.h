@@ -12,6 +12,9 @@
 
 namespace moonshade::codegen {
 
+/// Whether the domain's exports, for all lanes and for one, can be called on the target.
+bool has_native_calls(const Target& target, Precision precision, unsigned width);
+
 /// Renames the declarations of exports that are to be called, so that the library's bitcode does not define them.
 void choose_native_calls(llvm::Module& module, const Target& target, LibraryCalls calls);
 

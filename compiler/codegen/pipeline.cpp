@@ -6,7 +6,6 @@
 #include <llvm/IR/Verifier.h>
 #include <llvm/Passes/PassBuilder.h>
 #include <llvm/Support/raw_ostream.h>
-#include <llvm/Transforms/IPO/AlwaysInliner.h>
 #include <llvm/Transforms/IPO/GlobalDCE.h>
 #include <llvm/Transforms/InstCombine/InstCombine.h>
 #include <llvm/Transforms/Scalar/ADCE.h>
@@ -17,6 +16,8 @@
 #include <llvm/Transforms/Scalar/LoopRotation.h>
 #include <llvm/Transforms/Scalar/SROA.h>
 #include <llvm/Transforms/Scalar/SimplifyCFG.h>
+#include <llvm/Transforms/Utils/Cloning.h>
+#include <llvm/Transforms/Utils/Mem2Reg.h>
 
 namespace moonshade::codegen {
 
@@ -54,6 +55,16 @@ llvm::FunctionPassManager late_passes(int level) {
   return passes;
 }
 
+/// At level 0, where selection takes most of the time: what takes less time than the selection of the loads and stores,
+/// and of the blocks, that it removes.
+llvm::FunctionPassManager quick_passes() {
+  llvm::FunctionPassManager passes;
+  passes.addPass(llvm::PromotePass()); // most variables, for a part of the time
+  passes.addPass(llvm::SROAPass(llvm::SROAOptions::PreserveCFG));
+  passes.addPass(llvm::SimplifyCFGPass());
+  return passes;
+}
+
 /// Emitted from the IR: neither of the library nor a wrapper around a function of it.
 bool is_own(const llvm::Function& function) {
   return !function.isDeclaration() && !function.doesNotAccessMemory() &&
@@ -82,6 +93,25 @@ void choose_inlining(llvm::Module& module) {
   }
 }
 
+/// Inlines what must be. (LLVM's pass for this works out how often each block runs, for profiles that there are not.)
+struct InlineCalls : llvm::PassInfoMixin<InlineCalls> {
+  llvm::PreservedAnalyses run(llvm::Module& module, llvm::ModuleAnalysisManager& analyses) {
+    // Named, so that what is known of functions is forgotten with this pass.
+    analyses.getResult<llvm::FunctionAnalysisManagerModuleProxy>(module);
+    for (llvm::Function& function : llvm::make_early_inc_range(module)) {
+      if (function.isDeclaration() || !function.hasFnAttribute(llvm::Attribute::AlwaysInline)) continue;
+      for (llvm::User* user : llvm::make_early_inc_range(function.users()))
+        if (auto* call = llvm::dyn_cast<llvm::CallBase>(user);
+            call != nullptr && call->getCalledFunction() == &function) {
+          llvm::InlineFunctionInfo info;
+          llvm::InlineFunction(*call, info, /*MergeAttributes=*/true, /*CalleeAAR=*/nullptr, /*InsertLifetime=*/false);
+        }
+      if (function.use_empty() && function.hasLocalLinkage()) function.eraseFromParent();
+    }
+    return llvm::PreservedAnalyses::none();
+  }
+};
+
 } // namespace
 
 void optimize(llvm::Module& module, llvm::TargetMachine& machine, int level) {
@@ -105,8 +135,9 @@ void optimize(llvm::Module& module, llvm::TargetMachine& machine, int level) {
   }
   choose_inlining(module);
   llvm::ModulePassManager passes;
-  passes.addPass(llvm::AlwaysInlinerPass(/*InsertLifetime=*/false));
+  passes.addPass(InlineCalls());
   passes.addPass(llvm::GlobalDCEPass());
+  if (level == 0) passes.addPass(llvm::createModuleToFunctionPassAdaptor(quick_passes()));
   if (level > 0) passes.addPass(llvm::createModuleToFunctionPassAdaptor(late_passes(level)));
   passes.run(module, modules);
 }

@@ -6,6 +6,9 @@
 
 namespace moonshade::codegen {
 
+/// Instead of a level: nothing but inlining, for functions that make other passes take quadratic time.
+inline constexpr int kInlineOnly = -1;
+
 /// `level` as in -O0 to -O3.
 void optimize(llvm::Module& module, llvm::TargetMachine& machine, int level);
 

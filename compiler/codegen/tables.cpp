@@ -62,9 +62,7 @@ void define_16(llvm::Function& function, unsigned lanes) {
 
 } // namespace
 
-bool has_tables(const Target& target) {
-  return target.vector_bits == 512 && has_feature(target, "avx512vbmi");
-}
+bool has_tables(const Target& target) { return target.vector_bits == 512 && has_feature(target, "avx512vbmi"); }
 
 void define_tables(llvm::Module& module, const Target& target) {
   llvm::Function* question = module.getFunction("moonshade_target_has_tables");

@@ -202,9 +202,8 @@ bool runs_code_of(const Target& target, std::string_view processor) {
   if (processor.empty()) return true;
   llvm::SmallVector<llvm::StringRef, 64> features;
   llvm::X86::getFeaturesForCPU(llvm::StringRef(processor.data(), processor.size()), features);
-  return std::ranges::all_of(features, [&](llvm::StringRef feature) {
-    return feature == "64bit" || has_feature(target, feature);
-  });
+  return std::ranges::all_of(
+      features, [&](llvm::StringRef feature) { return feature == "64bit" || has_feature(target, feature); });
 }
 
 unsigned best_width(const Target& target, Precision precision) {
