@@ -28,7 +28,9 @@ unsigned Domain::memory_size(ValueType type) const {
 
 llvm::Value* broadcast(Builder& builder, const Domain& domain, llvm::Value* part) {
   if (domain.width == 1 || part->getType()->isVectorTy()) return part;
-  return builder.CreateVectorSplat(domain.width, part);
+  const auto count = llvm::ElementCount::getFixed(domain.width);
+  if (auto* constant = llvm::dyn_cast<llvm::Constant>(part)) return llvm::ConstantVector::getSplat(count, constant);
+  return builder.CreateVectorSplat(count, part);
 }
 
 void unify(Builder& builder, const Domain& domain, llvm::Value*& a, llvm::Value*& b) {

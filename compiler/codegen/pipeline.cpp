@@ -55,13 +55,13 @@ llvm::FunctionPassManager late_passes(int level) {
   return passes;
 }
 
-/// At level 0, where selection takes most of the time: what takes less time than the selection of the loads and stores,
-/// and of the blocks, that it removes.
+/// At level 0, where selection takes most of the time: what takes less time than the selection of what it removes.
 llvm::FunctionPassManager quick_passes() {
   llvm::FunctionPassManager passes;
   passes.addPass(llvm::PromotePass()); // most variables, for a part of the time
   passes.addPass(llvm::SROAPass(llvm::SROAOptions::PreserveCFG));
   passes.addPass(llvm::SimplifyCFGPass());
+  passes.addPass(llvm::EarlyCSEPass(false));
   return passes;
 }
 
