@@ -31,8 +31,8 @@ struct Generated::Parts {
   Target target;
   std::string complaint; ///< of LLVM's code generator
   uint64_t stack = 0;    ///< of a function that takes too much of it
-  llvm::LLVMContext context;
-  std::unique_ptr<llvm::Module> module;
+  std::shared_ptr<LibraryContext> library;
+  std::unique_ptr<llvm::Module> module; ///< of the library's context
 };
 
 Generated::Generated() = default;
@@ -55,6 +55,9 @@ constexpr size_t kLongBlock = 1000;
 constexpr size_t kManyEntries = 500;
 /// Operations of the IR, with functions emitted in place counted at each call: beyond this nothing is generated.
 constexpr uint64_t kMaxOperations = 200'000;
+
+/// Beyond this many of them, what is kept for the next compilation would keep megabytes.
+constexpr uint64_t kMostKept = 10'000;
 
 /// Bytes of stack for one function.
 constexpr uint64_t kMaxStack = uint64_t{1} << 20;
@@ -131,7 +134,8 @@ void cut_long_blocks(llvm::Module& module) {
 void emit_module(Generated& generated, const ir::Module& module, const Options& options) {
   Generated::Parts& parts = *generated.parts;
   CodeInfo& info = generated.info;
-  const Domain domain(parts.context, info.precision, info.width), single(parts.context, info.precision, 1);
+  llvm::LLVMContext& context = parts.library->context;
+  const Domain domain(context, info.precision, info.width), single(context, info.precision, 1);
   const FunctionAttributes attributes = attributes_for(parts.target, domain);
   const FaultPlaces places(module);
   ModuleEmitter emitter(*parts.module, module, domain, attributes, places);
@@ -171,27 +175,17 @@ void emit_module(Generated& generated, const ir::Module& module, const Options& 
 #endif
   if (!generated.error.empty()) return;
   choose_native_calls(*parts.module, parts.target, options.library_calls);
-  link_library(*parts.module, domain, attributes, generated.error);
+  link_library(*parts.module, *parts.library, domain, attributes, generated.error);
   if (generated.error.empty()) define_tables(*parts.module, parts.target);
 }
 
-std::string machine_code(Generated& generated, llvm::CodeGenFileType type) {
-  Stopwatch watch;
-  llvm::SmallString<0> bytes;
-  llvm::raw_svector_ostream stream(bytes);
-  llvm::legacy::PassManager passes;
-  if (generated.parts->target.machine->addPassesToEmitFile(passes, stream, nullptr, type)) {
-    generated.error = "the target cannot emit this kind of file";
-    return {};
-  }
-  passes.run(*generated.parts->module);
-  generated.times.codegen = watch.lap();
+/// What LLVM complained of while it generated code.
+void take_complaints(Generated& generated) {
   if (!generated.parts->complaint.empty()) generated.error = generated.parts->complaint;
   if (generated.parts->stack > kMaxStack) {
     generated.error = "a function's values take " + std::to_string(generated.parts->stack) + " bytes of stack";
     generated.exceeded_limit = kMaxStack;
   }
-  return generated.error.empty() ? std::string(bytes) : std::string();
 }
 
 } // namespace
@@ -203,11 +197,34 @@ std::string Generated::llvm_text() const {
   return text;
 }
 
-std::string Generated::assembly() { return machine_code(*this, llvm::CodeGenFileType::AssemblyFile); }
-std::string Generated::object() { return machine_code(*this, llvm::CodeGenFileType::ObjectFile); }
+std::string Generated::assembly() {
+  llvm::SmallString<0> text;
+  llvm::raw_svector_ostream stream(text);
+  llvm::legacy::PassManager passes;
+  if (parts->target.machine->addPassesToEmitFile(passes, stream, nullptr, llvm::CodeGenFileType::AssemblyFile)) {
+    error = "the target cannot emit assembly";
+    return {};
+  }
+  passes.run(*parts->module);
+  take_complaints(*this);
+  return error.empty() ? std::string(text) : std::string();
+}
+
+std::string Generated::object() {
+  Stopwatch watch;
+  ObjectPasses& passes = parts->target.kept->passes();
+  if (passes.cannot_emit()) {
+    error = "the target cannot emit object files";
+    return {};
+  }
+  std::string bytes = passes.run(*parts->module);
+  times.codegen = watch.lap();
+  take_complaints(*this);
+  return error.empty() ? bytes : std::string();
+}
 
 std::string Generated::c_object(const CInterface& interface) {
-  const Domain domain(parts->context, info.precision, info.width);
+  const Domain domain(parts->library->context, info.precision, info.width);
   error = add_c_interface(*parts->module, interface, info, attributes_for(parts->target, domain));
 #ifndef NDEBUG
   if (std::string complaint = verify(*parts->module); !complaint.empty()) error = "internal error: " + complaint;
@@ -228,19 +245,22 @@ Generated generate(const ir::Module& module, const Options& options) {
   generated.runs_here = parts.target.native;
   generated.info.precision = options.precision;
   generated.info.width = choose_width(module, parts.target, options).width;
-  parts.context.setDiagnosticHandlerCallBack(listen, &parts);
-  parts.module = std::make_unique<llvm::Module>("shader", parts.context);
-  parts.module->setTargetTriple(parts.target.machine->getTargetTriple().str());
-  parts.module->setDataLayout(parts.target.machine->createDataLayout());
   if (!module.problems.empty()) {
     generated.error = module.problems.front();
     return generated;
   }
-  if (const uint64_t size = operations(module); size > kMaxOperations) {
+  const uint64_t size = operations(module);
+  if (size > kMaxOperations) {
     generated.error = "the shader comes to " + std::to_string(size) + " operations";
     generated.exceeded_limit = kMaxOperations;
     return generated;
   }
+  parts.target.kept->is_worn = size > kMostKept;
+  parts.library = LibraryContext::take(size);
+  parts.library->context.setDiagnosticHandlerCallBack(listen, &parts);
+  parts.module = std::make_unique<llvm::Module>("shader", parts.library->context);
+  parts.module->setTargetTriple(parts.target.machine->getTargetTriple().str());
+  parts.module->setDataLayout(parts.target.machine->createDataLayout());
   emit_module(generated, module, options);
   generated.times.emit = watch.lap();
   if (!generated.error.empty()) return generated;

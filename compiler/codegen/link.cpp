@@ -3,11 +3,6 @@
 
 #include "stdlib/native_library.h"
 
-#include <llvm/Bitcode/BitcodeReader.h>
-#include <llvm/Linker/Linker.h>
-#include <llvm/Support/Error.h>
-#include <llvm/Support/MemoryBuffer.h>
-
 #include <set>
 
 namespace moonshade::codegen {
@@ -26,43 +21,30 @@ bool needs_width(const llvm::Module& module, unsigned width, unsigned order) {
   return false;
 }
 
-/// Defines what the module lacks and the bitcode has.
-void link_bitcode(llvm::Module& module, std::span<const char> bitcode, std::string& error) {
-  const llvm::MemoryBufferRef buffer(llvm::StringRef(bitcode.data(), bitcode.size()), "library");
-  auto library = llvm::getLazyBitcodeModule(buffer, module.getContext());
-  if (!library) {
-    error = "the library's bitcode cannot be read: " + llvm::toString(library.takeError());
-    return;
-  }
-  (*library)->setTargetTriple(module.getTargetTriple());
-  (*library)->setDataLayout(module.getDataLayout());
-  if (llvm::Linker::linkModules(module, std::move(*library), llvm::Linker::LinkOnlyNeeded))
-    error = "the library's bitcode cannot be linked";
-}
-
-void link_width(llvm::Module& module, Precision precision, unsigned width, unsigned order, std::string& error) {
+void link_width(llvm::Module& module, LibraryContext& library, Precision precision, unsigned width, unsigned order,
+                std::string& error) {
   const auto needed = [&] { return error.empty() && needs_width(module, width, order); };
   // First from what is soon read.
   const std::span<const char> small = small_bitcode(precision, width, order == 1);
-  if (order < 2 && !small.empty() && needed()) link_bitcode(module, small, error);
+  if (order < 2 && !small.empty() && needed()) library.define(module, small, error);
   if (!needed()) return;
-  link_bitcode(module,
-               order == 2   ? second_derivative_bitcode(precision)
-               : order == 1 ? derivative_bitcode(precision, width)
-                            : library_bitcode(precision, width),
-               error);
+  library.define(module,
+                 order == 2   ? second_derivative_bitcode(precision)
+                 : order == 1 ? derivative_bitcode(precision, width)
+                              : library_bitcode(precision, width),
+                 error);
 }
 
 } // namespace
 
-void link_library(llvm::Module& module, const Domain& domain, const FunctionAttributes& attributes,
-                  std::string& error) {
+void link_library(llvm::Module& module, LibraryContext& library, const Domain& domain,
+                  const FunctionAttributes& attributes, std::string& error) {
   std::vector<std::string> own;
   for (const llvm::Function& function : module)
     if (!function.isDeclaration()) own.push_back(function.getName().str());
   for (const unsigned order : {0u, 1u, 2u}) {
-    link_width(module, domain.precision, domain.width, order, error);
-    if (domain.width != 1) link_width(module, domain.precision, 1, order, error);
+    link_width(module, library, domain.precision, domain.width, order, error);
+    if (domain.width != 1) link_width(module, library, domain.precision, 1, order, error);
   }
   if (!error.empty()) return;
   const std::set<std::string> known(own.begin(), own.end());

@@ -2,6 +2,7 @@
 #include "compiler/codegen/target.h"
 
 #include "compiler/codegen/codegen.h"
+#include "compiler/codegen/idle.h"
 
 #include <llvm/ADT/StringMap.h>
 #include <llvm/MC/MCSubtargetInfo.h>
@@ -48,35 +49,10 @@ const std::string& host_features() {
   return text;
 }
 
-/// Machines that nobody uses at the moment. Making one, and what it works out about its processor, takes longer than
-/// small shaders do. The one thing that compilations share and change (docs/design.md says why it may be): which
-/// machine one gets makes no difference, as all that can be set of it is set anew.
-class IdleMachines {
-public:
-  std::unique_ptr<llvm::TargetMachine> take(const std::string& key) {
-    const std::scoped_lock lock(mutex_);
-    const auto found = std::ranges::find(machines_, key, &Machine::first);
-    if (found == machines_.end()) return nullptr;
-    std::unique_ptr<llvm::TargetMachine> machine = std::move(found->second);
-    machines_.erase(found);
-    return machine;
-  }
-  void give_back(std::string key, std::unique_ptr<llvm::TargetMachine> machine) {
-    const std::scoped_lock lock(mutex_);
-    if (machines_.size() >= kMost) machines_.erase(machines_.begin());
-    machines_.emplace_back(std::move(key), std::move(machine));
-  }
-
-private:
-  static constexpr size_t kMost = 8;
-  using Machine = std::pair<std::string, std::unique_ptr<llvm::TargetMachine>>;
-  std::mutex mutex_;
-  std::vector<Machine> machines_;
-};
-
-/// Lives as long as the process: threads may give machines back while it ends.
-IdleMachines& idle_machines() {
-  static auto* machines = new IdleMachines;
+/// Making a machine, and what it works out about its processor, takes longer than small shaders do. All that can be set
+/// of one is set anew.
+Idle<Machine>& idle_machines() {
+  static auto* machines = new Idle<Machine>;
   return *machines;
 }
 
@@ -170,6 +146,13 @@ std::string describe_target(const std::string& cpu, const std::string& triple) {
   return key_of(target, name);
 }
 
+ObjectPasses& Machine::passes() {
+  const llvm::CodeGenOptLevel level = target->getOptLevel();
+  ObjectPasses& passes = object_passes.try_emplace(level, *target).first->second;
+  target->setFastISel(level == llvm::CodeGenOptLevel::None); // which their making does
+  return passes;
+}
+
 Target make_target(const TargetOptions& options) {
   Target target;
   std::string name;
@@ -177,19 +160,23 @@ Target make_target(const TargetOptions& options) {
   if (llvm_target == nullptr) return target;
   const llvm::CodeGenOptLevel level = code_generation_level(options.optimization);
   std::string key = key_of(target, name);
-  std::unique_ptr<llvm::TargetMachine> machine = idle_machines().take(key);
-  if (machine == nullptr)
-    machine.reset(llvm_target->createTargetMachine(name, target.cpu, target.features, strict_options(),
-                                                   llvm::Reloc::PIC_, llvm::CodeModel::Small, level));
+  std::unique_ptr<Machine> machine = idle_machines().take(key);
   if (machine == nullptr) {
+    machine = std::make_unique<Machine>();
+    machine->target.reset(llvm_target->createTargetMachine(name, target.cpu, target.features, strict_options(),
+                                                           llvm::Reloc::PIC_, llvm::CodeModel::Small, level));
+  }
+  if (machine->target == nullptr) {
     target.error = "no code can be made for target '" + name + "'";
     return target;
   }
-  machine->setOptLevel(level);
-  machine->setFastISel(false); // which level 0 sets, and no other level takes back
-  target.machine = {machine.release(), [key = std::move(key)](llvm::TargetMachine* idle) {
-                      idle_machines().give_back(key, std::unique_ptr<llvm::TargetMachine>(idle));
-                    }};
+  target.machine = machine->target.get();
+  target.machine->setOptLevel(level);
+  target.machine->setFastISel(false); // which level 0 sets, and no other level takes back
+  target.kept = {machine.release(), [key = std::move(key)](Machine* done) {
+                   std::unique_ptr<Machine> idle(done);
+                   if (!idle->is_worn) idle_machines().give_back(key, std::move(idle));
+                 }};
   target.vector_bits = widest_vector(*target.machine);
   return target;
 }

@@ -2,10 +2,12 @@
 // The native machine's features come from CPUID, not from the CPU's name: virtual machines mask the model.
 #pragma once
 
+#include "compiler/codegen/object_passes.h"
 #include "stdlib/library.h"
 
 #include <llvm/Target/TargetMachine.h>
 
+#include <map>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -18,9 +20,19 @@ struct TargetOptions {
   int optimization = 2;       ///< 0 to 3
 };
 
+/// A machine and what belongs to it, as they wait for the next compilation.
+struct Machine {
+  std::unique_ptr<llvm::TargetMachine> target;
+  std::map<llvm::CodeGenOptLevel, ObjectPasses> object_passes; ///< that were needed so far
+  bool is_worn = false; ///< its passes hold the memory that they took for a large module
+
+  /// The passes for the level that the machine is set to.
+  ObjectPasses& passes();
+};
+
 struct Target {
-  /// Nobody else's meanwhile; goes back to those that are kept for the next compilation.
-  std::shared_ptr<llvm::TargetMachine> machine;
+  std::shared_ptr<Machine> kept; ///< nobody else's meanwhile
+  llvm::TargetMachine* machine = nullptr;
   std::string cpu;
   std::string features;
   unsigned vector_bits = 128; ///< of the widest registers that are worth using
