@@ -370,7 +370,10 @@ void SceneBuilder::environment(SceneFields& fields, Light& light, const SceneCal
   if (image.empty() == shader.empty()) return fields.fail("either 'image' or 'shader' names a file");
   (image.empty() ? light.shader : light.image) =
       file(fields, image.empty() ? "shader" : "image", image.empty() ? shader : image);
-  if (!shader.empty()) parameters(fields, light.parameters);
+  if (!shader.empty())
+    parameters(fields, light.parameters);
+  else if (fields.has("params"))
+    fields.fail("'params' are those of a 'shader'");
 }
 
 void SceneBuilder::light(SceneFields& fields, const SceneCall& call) {

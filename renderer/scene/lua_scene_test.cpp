@@ -72,7 +72,7 @@ TEST_F(LuaScene, NamesLineAndNearestNameOfWrongFields) {
             "s.lua:2: material: there is a material 'a' already");
   EXPECT_EQ(error("material{ density = -1 }"), "s.lua:1: material: 'density' lies between 0 and 1e+09");
   EXPECT_EQ(error("material{ color = {1, -1, 0} }"), "s.lua:1: material: 'color' is not negative");
-  EXPECT_THAT(error("sphere{ 1, 2 }"), HasSubstr("s.lua:1: sphere: takes named fields only: name, center, radius"));
+  EXPECT_THAT(error("sphere{ 1, 2 }"), HasSubstr("s.lua:1: sphere: takes named fields only: center, radius, name"));
   EXPECT_THAT(error("sphere(1)"), HasSubstr("s.lua:1: 'sphere' takes one table"));
   EXPECT_THAT(error("sphre{}"), HasSubstr("did you mean 'sphere'?"));
   EXPECT_EQ(error("camera{ from = {0,0,0}, to = {0,0,0} }"), "s.lua:1: camera: 'from' and 'to' are the same point");
@@ -81,6 +81,43 @@ TEST_F(LuaScene, NamesLineAndNearestNameOfWrongFields) {
   EXPECT_EQ(error(""), "s.lua: the scene has no objects");
   EXPECT_THAT(error("sphere{ radius = function() end }"), HasSubstr("s.lua:1: sphere: holds a function"));
   EXPECT_THAT(error("x = = 1"), HasSubstr("s.lua:1: "));
+}
+
+TEST_F(LuaScene, NamesAMisspeltFieldRatherThanWhatIsMissing) {
+  EXPECT_EQ(error("\ncamera{ frm = {0,0,3} }"), "s.lua:2: camera: unknown field 'frm'; did you mean 'from'?");
+  EXPECT_EQ(error("camera{ frm = {0,0,3}, fov = 'wide' }"),
+            "s.lua:1: camera: unknown field 'frm'; did you mean 'from'?");
+  EXPECT_EQ(error("light{ typ = 'sun' }"), "s.lua:1: light: unknown field 'typ'; did you mean 'type'?");
+  EXPECT_EQ(error("light{ type = 'point', positon = {0,1,0} }"),
+            "s.lua:1: light: unknown field 'positon'; did you mean 'position'?");
+  EXPECT_EQ(error("light{ type = 'environment', imag = 'a.png' }"),
+            "s.lua:1: light: unknown field 'imag'; did you mean 'image'?");
+  for (const char* function : {"obj", "ply", "gltf"})
+    EXPECT_EQ(error(std::string(function) + "{ fle = 'a' }"),
+              "s.lua:1: " + std::string(function) + ": unknown field 'fle'; did you mean 'file'?");
+  EXPECT_EQ(error("instance{ off = sphere{} }"), "s.lua:1: instance: unknown field 'off'; did you mean 'of'?");
+  EXPECT_EQ(error("box{ siz = 0, size = 0 }"), "s.lua:1: box: unknown field 'siz'; did you mean 'size'?");
+  EXPECT_EQ(error("rectangle{ u = {0,0,0}, centre = {0,0,0} }"),
+            "s.lua:1: rectangle: unknown field 'centre'; did you mean 'center'?");
+  EXPECT_EQ(error("plane{ normal = {0,0,0}, pint = {0,0,0} }"),
+            "s.lua:1: plane: unknown field 'pint'; did you mean 'point'?");
+  EXPECT_EQ(error("material{ density = -1, colour = 1 }"),
+            "s.lua:1: material: unknown field 'colour'; did you mean 'color'?");
+  EXPECT_EQ(error("render{ width = 1.5, hight = 2 }"),
+            "s.lua:1: render: unknown field 'hight'; did you mean 'height'?");
+  EXPECT_EQ(error("group{ hiden = true }"), "s.lua:1: group: unknown field 'hiden'; did you mean 'hidden'?");
+}
+
+TEST_F(LuaScene, KnowsTheFieldsOfTheTypeAlone) {
+  EXPECT_EQ(error("light{ type = 'point', angle = 3 }"),
+            "s.lua:1: light: unknown field 'angle' (known: type, color, intensity, position)");
+  EXPECT_THAT(error("light{ type = 'sum', angle = 3 }"), HasSubstr("unknown type 'sum'; did you mean 'sun'?"));
+  EXPECT_EQ(error("light{ angle = 3 }"), "s.lua:1: light: the field 'type' is missing");
+  EXPECT_THAT(error("group{ sphere{}, material = 'a' }"), HasSubstr("s.lua:1: group: unknown field 'material'"));
+  folder_.write("a.png", "");
+  const char* text = "light{ type = 'environment', image = 'a.png', params = { a = 1 } }";
+  EXPECT_THAT(parse_lua_scene(folder_ / "s.lua", text, folder_.folders()).error,
+              HasSubstr("s.lua:1: light: 'params' are those of a 'shader'"));
 }
 
 TEST_F(LuaScene, OpensOnlyFilesOfItsFolders) {

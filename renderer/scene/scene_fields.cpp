@@ -3,11 +3,33 @@
 
 #include "renderer/scene/nearest_name.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <cstdlib>
 
 namespace moonshade::renderer {
+
+/// The word of the call's `type`; empty where the function has no types, or the call no known one.
+static std::string_view type_of(const SceneCall& call, const FunctionInfo& function) {
+  const FieldInfo* field = find_field(function, "type");
+  if (!field) return {};
+  auto given = call.fields.find("type");
+  if (given == call.fields.end()) return field->required ? std::string_view() : field->words[0];
+  const auto* text = std::get_if<std::string>(&given->second.value);
+  auto word = text ? std::find(field->words.begin(), field->words.end(), *text) : field->words.end();
+  return word == field->words.end() ? std::string_view() : *word;
+}
+
+SceneFields::SceneFields(const SceneCall& call, const FunctionInfo& function, std::string place)
+    : call_(call), function_(function), place_(std::move(place)), type_(type_of(call, function)),
+      known_(field_names(function, type_)) {
+  for (const auto& [name, value] : call_.fields)
+    if (std::find(known_.begin(), known_.end(), name) == known_.end()) {
+      std::string hint = did_you_mean(name, known_);
+      fail("unknown field '" + name + "'" + (hint.empty() ? " (known: " + join_names(known_) + ")" : hint));
+    }
+}
 
 void SceneFields::fail(const std::string& message) {
   if (error_.empty()) error_ = place_ + ": " + std::string(function_.name) + ": " + message;
@@ -26,8 +48,7 @@ Vec3 SceneFields::constant(std::string_view name) {
   return {float(v[0]), float(v[1]), float(v[2])};
 }
 
-const SceneValue* SceneFields::find(std::string_view name) {
-  if (std::find(known_.begin(), known_.end(), name) == known_.end()) known_.push_back(name);
+const SceneValue* SceneFields::find(std::string_view name) const {
   auto found = call_.fields.find(std::string(name));
   return found == call_.fields.end() ? nullptr : &found->second;
 }
@@ -148,10 +169,7 @@ size_t SceneFields::choice(std::string_view name) {
   if (words.empty()) return 0;
   std::string word = text(name, std::string(words[0]));
   for (size_t i = 0; i < words.size(); ++i)
-    if (words[i] == word) {
-      if (name == "type") type_ = words[i];
-      return i;
-    }
+    if (words[i] == word) return i;
   fail("unknown " + std::string(name) + " '" + word + "'" + did_you_mean(word, words) +
        " (known: " + join_names(words) + ")");
   return 0;
@@ -159,11 +177,6 @@ size_t SceneFields::choice(std::string_view name) {
 
 std::string SceneFields::finish(bool takes_items) {
   if (!takes_items && !call_.items.empty()) fail("takes named fields only: " + join_names(known_));
-  for (const auto& [name, value] : call_.fields)
-    if (std::find(known_.begin(), known_.end(), name) == known_.end()) {
-      std::string hint = did_you_mean(name, known_);
-      fail("unknown field '" + name + "'" + (hint.empty() ? " (known: " + join_names(known_) + ")" : hint));
-    }
   return error_;
 }
 

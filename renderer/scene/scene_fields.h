@@ -14,13 +14,13 @@ namespace moonshade::renderer {
 
 class SceneFields {
 public:
-  /// `place` names file and line of the call.
-  SceneFields(const SceneCall& call, const FunctionInfo& function, std::string place)
-      : call_(call), function_(function), place_(std::move(place)) {}
+  /// `place` names file and line of the call. Names that the function does not know, for the call's `type` where it has
+  /// types, come first of all errors: a misspelt field is also a missing one.
+  SceneFields(const SceneCall& call, const FunctionInfo& function, std::string place);
 
   // Each field has a row in the scene's reference, which gives its range, and the default where `otherwise` is not
   // given.
-  bool has(std::string_view name) { return find(name) != nullptr; }
+  bool has(std::string_view name) const { return find(name) != nullptr; }
   double number(std::string_view name, std::optional<double> otherwise = std::nullopt);
   int64_t integer(std::string_view name);
   bool boolean(std::string_view name);
@@ -31,14 +31,13 @@ public:
   Vec3 triple(std::string_view name, std::optional<Vec3> otherwise = std::nullopt);
   /// A triple that is not negative.
   Vec3 color(std::string_view name, std::optional<Vec3> otherwise = std::nullopt);
-  const SceneValue* find(std::string_view name);
+  const SceneValue* find(std::string_view name) const;
   /// The index of one of the field's words; 0 where the field is absent.
   size_t choice(std::string_view name);
   void require(std::string_view name);
 
   void fail(const std::string& message);
-  /// The first error, or that of a field nobody asked for (or of what has no name, unless it `takes_items`); empty
-  /// where all is well.
+  /// The first error, or that of what has no name, unless it `takes_items`; empty where all is well.
   std::string finish(bool takes_items = false);
 
 private:
@@ -49,8 +48,8 @@ private:
   const SceneCall& call_;
   const FunctionInfo& function_;
   std::string place_, error_;
-  std::string_view type_; ///< where the function has types and the field is read
-  std::vector<std::string_view> known_;
+  std::string_view type_;               ///< the call's; empty where it has none, or an unknown one
+  std::vector<std::string_view> known_; ///< fields of that type
 };
 
 } // namespace moonshade::renderer

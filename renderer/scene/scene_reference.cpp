@@ -3,6 +3,7 @@
 
 #include "renderer/scene/scene.h"
 
+#include <algorithm>
 #include <cstdio>
 
 namespace moonshade::renderer {
@@ -286,7 +287,7 @@ constexpr FunctionInfo kFunctions[] = {
     {"group",
      "Objects, in a list, placed together: `group{ sphere{...}, box{...}, rotate = {0, 45, 0} }`. Its `name`, if "
      "given, becomes theirs; it has no `material`.",
-     kGroup, true},
+     kGroup, true, false},
     {"instance",
      "Another one of an object or a group, as that is at this line, placed anew; `name` and `material`, if given, take "
      "the place of its own. A model's triangles are kept once.",
@@ -387,17 +388,37 @@ void print_fields(std::string& out, std::span<const FieldInfo> fields) {
 std::span<const FunctionInfo> scene_functions() { return kFunctions; }
 std::span<const std::string_view> scene_function_names() { return kNames; }
 
+namespace {
+
+/// Whether a call of this type has the field; without a type it may have any.
+bool is_for(const FieldInfo& field, std::string_view type) {
+  return field.only.empty() || field.only.find(type) != std::string_view::npos;
+}
+
+} // namespace
+
 const FieldInfo* find_field(const FunctionInfo& function, std::string_view name, std::string_view type) {
   const FieldInfo* other = nullptr; // of another type
   for (const FieldInfo& field : function.fields) {
     if (field.name != name) continue;
-    if (field.only.empty() || field.only.find(type) != std::string_view::npos) return &field;
+    if (is_for(field, type)) return &field;
     other = &field;
   }
   if (function.is_object && !other)
     for (const FieldInfo& field : kEveryObject)
       if (field.name == name) return &field;
   return other;
+}
+
+std::vector<std::string_view> field_names(const FunctionInfo& function, std::string_view type) {
+  std::vector<std::string_view> names;
+  for (const FieldInfo& field : function.fields)
+    if (is_for(field, type) && std::find(names.begin(), names.end(), field.name) == names.end())
+      names.push_back(field.name);
+  if (function.is_object)
+    for (const FieldInfo& field : kEveryObject)
+      if (function.has_material || field.kind != FieldKind::Material) names.push_back(field.name);
+  return names;
 }
 
 std::string scene_reference() {

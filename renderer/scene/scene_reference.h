@@ -9,6 +9,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace moonshade::renderer {
 
@@ -64,7 +65,8 @@ struct FunctionInfo {
   std::string_view name;
   std::string_view doc;
   std::span<const FieldInfo> fields;
-  bool is_object = false; ///< has those of every object, too
+  bool is_object = false;   ///< has those of every object, too
+  bool has_material = true; ///< of an object
 };
 
 /// In the order of the enumeration.
@@ -75,6 +77,10 @@ std::span<const std::string_view> scene_function_names();
 /// The row of a function's field, those of every object included, for the `type` that the call has; null where there is
 /// none.
 const FieldInfo* find_field(const FunctionInfo& function, std::string_view name, std::string_view type = {});
+
+/// The names of a function's fields, those of every object included, that a call of this `type` has; without a type
+/// those of all types.
+std::vector<std::string_view> field_names(const FunctionInfo& function, std::string_view type);
 
 /// The reference as Markdown.
 std::string scene_reference();
