@@ -29,7 +29,7 @@ FunctionBuild::Values FunctionBuild::call(const Expr& expr) {
   }
   if (known.call == CallKind::Error) {
     evaluate_list(args);
-    b_.fault(b_.boolean(true), FaultCode::Error, message_of(args, 0, "error"));
+    b_.fault(b_.boolean(true), FaultCode::Error, args.empty() ? "error" : message_of(*args[0], "error"));
     // What follows is not executed, but is translated: give it a value to go on with.
     return {known.type.is_value() ? b_.zero(known.type.value) : kNone};
   }
@@ -61,7 +61,7 @@ FunctionBuild::Values FunctionBuild::call(const Expr& expr) {
   case CallKind::Fwidth:
     return {fwidth(known, arguments[1], arguments[2])};
   case CallKind::Assert:
-    assertion(expr, args, arguments[0]);
+    assertion(expr, known, arguments[0]);
     return arguments;
   default:
     return {kNone};
@@ -229,11 +229,14 @@ ValueId FunctionBuild::texture(const ExpressionFact& known, const CallExpr& expr
   return b_.call_library(texture_row(), ValueType::Vec4, {b_.integer(known.index), operands[1], width});
 }
 
-void FunctionBuild::assertion(const Expr& expr, std::span<Expr* const> args, ValueId condition) {
+void FunctionBuild::assertion(const Expr& expr, const ExpressionFact& known, ValueId condition) {
   // Anything but false and nil holds.
   if (condition == kNone || b_.type_of(condition) != ValueType::Boolean) return;
   const At at(b_, expr.span);
-  b_.fault(b_.unary(Op::Not, condition), FaultCode::Assert, message_of(args, 1, "assertion failed!"));
+  const sema::Type second = known.results.size() > 1 ? known.results[1] : sema::Type{};
+  const bool has_message = second.kind == sema::Type::Kind::String && !second.is_parameter;
+  const std::string_view message = has_message ? second.text : "assertion failed!";
+  b_.fault(b_.unary(Op::Not, condition), FaultCode::Assert, std::string(message));
 }
 
 /// The arguments as the text of the line: strings are in it, values have their places there.
@@ -263,9 +266,8 @@ void FunctionBuild::print(std::span<Expr* const> args, const Values& arguments) 
   b_.append(std::move(line));
 }
 
-std::string FunctionBuild::message_of(std::span<Expr* const> args, size_t index, std::string_view otherwise) const {
-  if (index >= args.size()) return std::string(otherwise);
-  const Expr& expr = strip_parentheses(*args[index]);
+std::string FunctionBuild::message_of(const Expr& argument, std::string_view otherwise) const {
+  const Expr& expr = strip_parentheses(argument);
   if (const auto* literal = try_as<StringExpr>(&expr)) return std::string(literal->value);
   const sema::Type& type = fact(expr).type;
   return std::string(type.kind == sema::Type::Kind::String ? type.text : otherwise);

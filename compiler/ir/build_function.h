@@ -110,9 +110,9 @@ private:
   Values modf(ValueId argument);
   ValueId texture(const sema::ExpressionFact& known, const syntax::CallExpr& expr);
   ValueId to_integer(const sema::ExpressionFact& known, ValueId argument);
-  void assertion(const syntax::Expr& expr, std::span<syntax::Expr* const> args, ValueId condition);
+  void assertion(const syntax::Expr& expr, const sema::ExpressionFact& known, ValueId condition);
   void print(std::span<syntax::Expr* const> args, const Values& arguments);
-  std::string message_of(std::span<syntax::Expr* const> args, size_t index, std::string_view otherwise) const;
+  std::string message_of(const syntax::Expr& argument, std::string_view otherwise) const;
   /// The variables that a call of a specialisation binds to its captures.
   std::vector<VariableId> captures_of(const sema::Specialisation& callee);
 

@@ -15,6 +15,8 @@ namespace {
 TypeList one(const Type& type) { return {{type}, false}; }
 TypeList unknown_values() { return {{}, true}; }
 
+bool is_call(const Expr& expr) { return expr.kind == ExprKind::Call || expr.kind == ExprKind::MethodCall; }
+
 /// What messages call a function.
 std::string spoken_name(const Function& function) {
   return function.name.empty() ? "function" : std::string(function.name);
@@ -125,7 +127,8 @@ TypeList Walker::call_function(const CallExpr& expr, const Type& called, TypeLis
 TypeList Walker::call_library(const CallExpr& expr, std::string_view name) {
   if (name == "param") return parameter(expr);
   if (name == "require") return require_module(expr);
-  if (name == "assert" || name == "error") return assert_or_error(expr, name == "assert");
+  if (name == "assert") return assertion(expr);
+  if (name == "error") return error_call(expr);
   if (name == "vec2" || name == "vec3" || name == "vec4" || name == "rgb") return construct(expr, name);
   if (name == "mat3" || name == "mat4") return construct_matrix(expr, name);
   if (name == "math.floor" || name == "math.ceil" || name == "math.tointeger") return to_integer(expr, name);
@@ -312,31 +315,43 @@ TypeList Walker::print(const CallExpr& expr) {
   return {};
 }
 
-TypeList Walker::assert_or_error(const CallExpr& expr, bool is_assert) {
-  const std::string name = is_assert ? "assert" : "error";
-  std::vector<Type> types;
-  for (const Expr* arg : expr.args)
-    types.push_back(expression(*arg));
-  const size_t message = is_assert ? 1 : 0;
-  if (is_assert) {
-    if (types.empty()) {
-      error(Code::MissingArgument, expr.span, {"1", name, "condition"});
-    } else {
-      require_condition(*expr.args[0], types[0]);
-    }
+/// As Lua's, it passes on what it gets, all values of a call at the end of its arguments included. What is no boolean
+/// always holds: that is no condition but in a call's value, which it lets pass.
+TypeList Walker::assertion(const CallExpr& expr) {
+  const TypeList list = expression_list(expr.args);
+  const std::vector<Type>& types = list.types;
+  if (types.empty()) {
+    if (!list.open) error(Code::MissingArgument, expr.span, {"1", "assert", "condition"});
+    return unknown_values();
   }
-  if (types.size() > message && !is_unknown(types[message]) &&
-      (types[message].kind != Type::Kind::String || types[message].is_parameter))
-    type_error(Code::MessageConstant, expr.args[message]->span, {name});
-  if (types.size() > message + 1)
-    error(Code::TooManyArguments, expr.args[message + 1]->span, {name, std::to_string(message + 1)});
+  const bool is_condition = types[0].is(ValueType::Boolean) || !is_call(strip_parentheses(*expr.args[0]));
+  if (is_condition) require_condition(*expr.args[0], types[0]);
+  if (is_condition && expr.args.size() > 1) require_message(*expr.args[1], list.at(1), "assert");
+  if (list.open) return list;
   ExpressionFact fact;
-  fact.type = is_assert && !types.empty() ? types[0] : none_type();
-  if (is_assert) fact.results = types; // as Lua, it gives what it gets
-  fact.call = is_assert ? CallKind::Assert : CallKind::Error;
-  const TypeList results{fact.results, false};
+  fact.type = types[0];
+  fact.results = types;
+  fact.call = CallKind::Assert;
   record(expr, std::move(fact));
-  return results;
+  return list;
+}
+
+TypeList Walker::error_call(const CallExpr& expr) {
+  for (const Expr* arg : expr.args) {
+    const Type type = expression(*arg);
+    if (arg == expr.args[0]) require_message(*arg, type, "error");
+  }
+  if (expr.args.size() > 1) error(Code::TooManyArguments, expr.args[1]->span, {"error", "1"});
+  ExpressionFact fact;
+  fact.type = none_type();
+  fact.call = CallKind::Error;
+  record(expr, std::move(fact));
+  return {};
+}
+
+void Walker::require_message(const Expr& expr, const Type& type, std::string_view name) {
+  if (!is_unknown(type) && (type.kind != Type::Kind::String || type.is_parameter))
+    type_error(Code::MessageConstant, expr.span, {std::string(name)});
 }
 
 } // namespace moonshade::sema

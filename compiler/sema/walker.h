@@ -124,7 +124,9 @@ private:
   TypeList modf(const syntax::CallExpr& expr);
   TypeList math_type(const syntax::CallExpr& expr);
   TypeList print(const syntax::CallExpr& expr);
-  TypeList assert_or_error(const syntax::CallExpr& expr, bool is_assert);
+  TypeList assertion(const syntax::CallExpr& expr);
+  TypeList error_call(const syntax::CallExpr& expr);
+  void require_message(const syntax::Expr& expr, const Type& type, std::string_view name);
   /// Argument types, the last call expanded; functions among them are refused.
   TypeList arguments(std::span<syntax::Expr* const> args);
   bool is_recursive(const syntax::CallExpr& expr, const WorkKey& key);
