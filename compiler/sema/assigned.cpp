@@ -47,6 +47,11 @@ bool is_literal(const Expr& expr, bool value) {
   return literal != nullptr && literal->value == value;
 }
 
+/// A name of the library that the shader takes for its own has another value until then.
+Code unassigned_code(const Context& context, const void* variable) {
+  return context.hidden_names.contains(variable) ? Code::HiddenUnassigned : Code::UnassignedVariable;
+}
+
 class Flow {
 public:
   Flow(Context& context, Work& work) : context_(context), work_(work) {}
@@ -79,12 +84,21 @@ private:
     return numbers_.try_emplace(variable, static_cast<unsigned>(numbers_.size())).first->second;
   }
 
-  /// The variable of a name, where it can be unassigned; null otherwise.
-  const void* tracked(const NameExpr& name) {
-    if (name.local != nullptr) return context_.unset_locals.contains(name.local) ? name.local : nullptr;
+  const void* tracked(const Local& local) const { return context_.unset_locals.contains(&local) ? &local : nullptr; }
+
+  const void* tracked(const Global* global) const {
     if (context_.is_library_code(work_)) return nullptr; // whose top level has run, so to speak
-    const Global* global = context_.globals.find(name.name);
     return global == nullptr || global->is_broken ? nullptr : global;
+  }
+
+  /// The variable of a name that is read, where it can be unassigned; null otherwise.
+  const void* tracked(const NameExpr& name) {
+    return name.local != nullptr ? tracked(*name.local) : tracked(context_.find_global(work_, name));
+  }
+
+  /// The same of one that gets a value.
+  const void* assigned(const NameExpr& name) {
+    return name.local != nullptr ? tracked(*name.local) : tracked(context_.globals.find(name.name));
   }
 
   void require(const void* variable, std::string_view name, Span place, const Span* call) {
@@ -92,7 +106,7 @@ private:
     if (!state_.is_reachable || state_.has(number)) return;
     state_.set(number, true); // once is enough
     if (is_own(variable)) {
-      Diagnostic& diagnostic = context_.error(Code::UnassignedVariable, place, {std::string(name)});
+      Diagnostic& diagnostic = context_.error(unassigned_code(context_, variable), place, {std::string(name)});
       if (call != nullptr) diagnostic.note(Code::NoteReadDuringCall, *call);
       return;
     }
@@ -196,7 +210,7 @@ private:
     expressions(stat.values);
     for (const Expr* target : stat.targets) {
       if (const auto* name = try_as<NameExpr>(target)) {
-        if (const void* variable = tracked(*name)) state_.set(number_of(variable), true);
+        if (const void* variable = assigned(*name)) state_.set(number_of(variable), true);
       } else {
         expression(*target);
       }
@@ -278,7 +292,7 @@ private:
                     [&](const FunctionStat& node) {
                       const auto* name = try_as<NameExpr>(node.target);
                       if (name == nullptr) return;
-                      if (const void* variable = tracked(*name)) state_.set(number_of(variable), true);
+                      if (const void* variable = assigned(*name)) state_.set(number_of(variable), true);
                     },
                     [&](const ReturnStat& node) {
                       expressions(node.values);
@@ -313,7 +327,7 @@ void check_assigned_for_entry(Context& context, const Work& top, const Global& g
   if (!is_assigned(&global)) context.error(Code::FunctionNotKnown, global.definition, {std::string(global.name)});
   for (const Requirement& requirement : entry.requires_assigned)
     if (!is_assigned(requirement.variable))
-      context.error(Code::UnassignedVariable, requirement.place, {std::string(requirement.name)});
+      context.error(unassigned_code(context, requirement.variable), requirement.place, {std::string(requirement.name)});
 }
 
 } // namespace moonshade::sema

@@ -85,6 +85,7 @@ TypeList Walker::call_function(const CallExpr& expr, const Type& called, TypeLis
   const size_t given = args.types.size();
   args.types.resize(count);
   WorkKey key{&function, called.frame, work_.is_init, nullptr, 0, args.types};
+  key.moment = context_.moment_of(work_, expr.span);
   if (context_.makers.contains(&function)) {
     key.site = &work_;
     key.call = expr.id;

@@ -10,6 +10,7 @@ namespace moonshade::sema {
 size_t WorkKeyHash::operator()(const WorkKey& key) const {
   size_t hash = std::hash<const void*>()(key.function) * 1000003 + std::hash<const void*>()(key.parent);
   hash = hash * 1000003 + std::hash<const void*>()(key.site) + key.call * 2 + (key.is_init ? 1 : 0);
+  hash = hash * 1000003 + key.moment;
   for (const Type& type : key.arguments)
     hash = hash * 1000003 + hash_of(type);
   return hash;
@@ -44,12 +45,21 @@ const syntax::Function* Context::library_function(std::string_view name) {
     const syntax::Chunk* loaded = load_library ? load_library() : nullptr;
     if (loaded == nullptr) return nullptr;
     library_chunk.emplace().chunk = loaded;
-    std::vector<const syntax::CallExpr*> requires_calls;
+    std::vector<RequireCall> requires_calls;
     collect_globals(*loaded, library_chunk->globals, requires_calls);
     library_chunk->work = find_or_make({loaded->main, nullptr, true, nullptr, 0, {}}, loaded->main->span);
   }
   const Global* global = library_chunk->globals.find(name);
   return global != nullptr ? global->function : nullptr;
+}
+
+Global* Context::find_global(const Work& work, const syntax::NameExpr& name, bool* is_open) {
+  if (is_library_code(work)) return library_chunk->globals.find(name.name);
+  Global* global = globals.find(name.name);
+  if (global == nullptr) return nullptr;
+  const HiddenNames::Meaning meaning = hidden_names.meaning(*global, moment_of(work, name.span));
+  if (is_open != nullptr) *is_open = meaning == HiddenNames::Meaning::Open;
+  return meaning == HiddenNames::Meaning::Library ? nullptr : global;
 }
 
 Work* Context::find_or_make(WorkKey key, Span place) {
@@ -64,6 +74,7 @@ Work* Context::find_or_make(WorkKey key, Span place) {
   work->parent = key.parent;
   work->arguments = key.arguments;
   work->is_init = key.is_init;
+  work->moment = key.moment;
   work->site = key.site;
   in_order.push_back(work.get());
   return works.emplace(std::move(key), std::move(work)).first->second.get();

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "compiler/sema/globals.h"
+#include "compiler/sema/hidden_names.h"
 #include "compiler/sema/program.h"
 #include "compiler/sema/types.h"
 
@@ -51,6 +52,8 @@ struct Work {
   std::vector<Type> arguments;
   /// It runs while the top level does; else while shading.
   bool is_init = false;
+  /// Of the top level when this one runs, for names that hide the library's; its own are at the places of its body.
+  unsigned moment = HiddenNames::kShading;
   /// The only one who calls it; null where anybody may.
   Work* site = nullptr;
   /// In whose call its captured variables live, where a result captures them; null: in its own.
@@ -107,6 +110,7 @@ struct WorkKey {
   Work* site;    ///< for functions whose results outlive the call: the one who calls
   uint32_t call; ///< and the id of the call
   std::vector<Type> arguments;
+  unsigned moment = HiddenNames::kShading;
   bool operator==(const WorkKey&) const = default;
 };
 struct WorkKeyHash {
@@ -125,6 +129,7 @@ struct Context {
   Diagnostics& diagnostics;
   Program& program;
   Globals globals;
+  HiddenNames hidden_names;
   Work* top = nullptr; ///< the top level
   /// A file that is required, and its top level.
   struct Module {
@@ -181,10 +186,14 @@ struct Context {
   bool is_library_code(const Work& work) const {
     return library_chunk && top_level_of(*work.function) == library_chunk->work;
   }
-  /// The global variable or function that a name is for this function; null where there is none.
-  Global* find_global(const Work& work, std::string_view name) {
-    return (is_library_code(work) ? library_chunk->globals : globals).find(name);
+  /// At which moment a place in this function is reached.
+  unsigned moment_of(const Work& work, Span place) const {
+    const bool is_top_level = work.is_init && work.function->parent == nullptr;
+    return is_top_level ? hidden_names.moment_at(place) : work.moment;
   }
+  /// The global variable or function that a name is there for this function; null where there is none, so that it is
+  /// the library's or unknown. `is_open` tells that it may be both.
+  Global* find_global(const Work& work, const syntax::NameExpr& name, bool* is_open = nullptr);
   /// A function of the library's own Lua; null where this host has none of it.
   const syntax::Function* library_function(std::string_view name);
   /// In whose call that lives which one call hands over to another: what files make lives as long as the shader.

@@ -66,6 +66,8 @@ bool all_inputs(const syntax::Function& function) {
 
 } // namespace
 
+bool is_entry_of_table(std::string_view name) { return find_in_table(name) != nullptr; }
+
 std::vector<EntryPlan> plan_entries(Context& context, const std::vector<std::string>& asked) {
   const auto is_asked = [&](std::string_view name) { return std::ranges::find(asked, name) != asked.end(); };
   std::vector<EntryPlan> plans;

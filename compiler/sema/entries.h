@@ -15,6 +15,9 @@ struct EntryPlan {
   Work* work = nullptr;
 };
 
+/// A name of the manual's table.
+bool is_entry_of_table(std::string_view name);
+
 /// Refuses parameters that are no inputs, and entries asked for that do not exist.
 std::vector<EntryPlan> plan_entries(Context& context, const std::vector<std::string>& asked);
 

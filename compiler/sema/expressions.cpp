@@ -146,21 +146,15 @@ Type Walker::local_name(const NameExpr& expr) {
 }
 
 Type Walker::global_name(const NameExpr& expr) {
-  ExpressionFact fact;
-  if (Global* global = context_.find_global(work_, expr.name)) {
-    if (global->is_broken) return unknown_type();
-    if (global->function != nullptr) {
-      fact.name = NameKind::Function;
-      fact.type = function_type(global->function, context_.top_level_of(*global->function));
-      return record(expr, std::move(fact));
-    }
-    fact.type = global->variable.type;
-    global->variable.owner = context_.top;
-    if (fact.type.kind == Type::Kind::Function) fact.name = NameKind::Function;
-    if (fact.type.kind == Type::Kind::Library) fact.name = NameKind::Library;
-    set_place(fact, global->variable, expr.name);
-    return record(expr, std::move(fact));
+  bool is_open = false;
+  Global* const global = context_.find_global(work_, expr, &is_open);
+  if (is_open) {
+    error(Code::NameOfOtherFile, expr.span, {std::string(expr.name)})
+        .note(Code::NoteFirstDefinition, global->definition, {std::string(expr.name)});
+    return unknown_type();
   }
+  if (global != nullptr) return global_of_shader(expr, *global);
+  ExpressionFact fact;
   if (expr.name == "math" || is_library_function(expr.name)) {
     fact.name = NameKind::Library;
     fact.type = library_type(expr.name);
@@ -168,6 +162,22 @@ Type Walker::global_name(const NameExpr& expr) {
   }
   if (!context_.globals.assigned_inside.contains(expr.name)) refuse_name(expr.span, expr.name);
   return unknown_type();
+}
+
+Type Walker::global_of_shader(const NameExpr& expr, Global& global) {
+  if (global.is_broken) return unknown_type();
+  ExpressionFact fact;
+  if (global.function != nullptr) {
+    fact.name = NameKind::Function;
+    fact.type = function_type(global.function, context_.top_level_of(*global.function));
+    return record(expr, std::move(fact));
+  }
+  fact.type = global.variable.type;
+  global.variable.owner = context_.top;
+  if (fact.type.kind == Type::Kind::Function) fact.name = NameKind::Function;
+  if (fact.type.kind == Type::Kind::Library) fact.name = NameKind::Library;
+  set_place(fact, global.variable, expr.name);
+  return record(expr, std::move(fact));
 }
 
 void Walker::refuse_name(Span span, std::string_view name) {

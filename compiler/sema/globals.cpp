@@ -3,6 +3,7 @@
 #include "compiler/sema/globals.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 namespace moonshade::sema {
@@ -13,7 +14,7 @@ namespace {
 
 class Collector {
 public:
-  Collector(Globals& globals, std::vector<const CallExpr*>& require_calls)
+  Collector(Globals& globals, std::vector<RequireCall>& require_calls)
       : globals_(globals), require_calls_(require_calls) {}
 
   void block(const Block& block, bool certain) {
@@ -43,12 +44,12 @@ private:
     const auto declared = declared_in_.find(&local);
     if (declared == declared_in_.end()) return;
     std::vector<Path>& before = assigned_[&local];
+    const size_t depth = declared->second.depth;
     if (before.empty() && declared->second.block == block_) {
       globals_.assigned_once.insert(&local);
     } else {
       globals_.assigned_once.erase(&local);
     }
-    const size_t depth = declared->second.depth;
     bool in_branches = std::all_of(path_.begin() + static_cast<std::ptrdiff_t>(depth), path_.end(),
                                    [](const Branch& branch) { return branch.stat != nullptr; });
     for (const Path& other : before)
@@ -58,7 +59,7 @@ private:
     before.push_back(path_);
   }
 
-  void define(const NameExpr& target, const Function* function, bool certain) {
+  void define(const NameExpr& target, const Function* function, bool certain, Span stat) {
     if (target.local != nullptr) assign_local(*target.local);
     if (!target.is_global() || target.environment != nullptr) return;
     if (function_depth_ != 0) {
@@ -70,12 +71,14 @@ private:
     if (is_new) {
       global.name = target.name;
       global.definition = target.span;
+      global.begins = loop_begin_.value_or(stat.end);
       global.function = function;
       global.in_branch = !certain;
       global.is_broken = function != nullptr && !certain;
       if (function != nullptr) globals_.functions.push_back(&global);
-    } else if (function != nullptr || global.function != nullptr) {
-      global.is_broken = true;
+    } else {
+      global.is_single = false;
+      global.is_broken = global.is_broken || function != nullptr || global.function != nullptr;
     }
   }
 
@@ -83,6 +86,13 @@ private:
     ++function_depth_;
     branch({nullptr, 0}, *function.body);
     --function_depth_;
+  }
+
+  void loop(const Stat& stat, const Block& body) {
+    const std::optional<uint32_t> around = loop_begin_;
+    if (!loop_begin_) loop_begin_ = stat.span.begin;
+    branch({nullptr, 0}, body);
+    loop_begin_ = around;
   }
 
   void branch(Branch branch, const Block& body) {
@@ -110,7 +120,7 @@ private:
                      [&](const CallExpr& call) {
                        const auto* name = try_as<NameExpr>(call.callee);
                        if (name != nullptr && name->is_global() && name->name == "require")
-                         require_calls_.push_back(&call);
+                         require_calls_.push_back({&call, is_certain_ && skippable_ == 0});
                        expression(call.callee);
                        expressions(call.args);
                      },
@@ -121,8 +131,11 @@ private:
                      [&](const ParenExpr& paren) { expression(paren.inner); },
                      [&](const UnaryExpr& unary) { expression(unary.operand); },
                      [&](const BinaryExpr& binary) {
+                       const bool may_skip = binary.op == BinaryOp::And || binary.op == BinaryOp::Or;
                        expression(binary.left);
+                       skippable_ += may_skip;
                        expression(binary.right);
+                       skippable_ -= may_skip;
                      },
                      [&](const TableExpr& table) {
                        for (const TableField& field : table.fields) {
@@ -143,11 +156,12 @@ private:
         continue;
       }
       const Expr* value = i < stat.values.size() ? stat.values[i] : nullptr;
-      define(*name, try_as<Function>(value), certain);
+      define(*name, try_as<Function>(value), certain, stat.span);
     }
   }
 
   void statement(const Stat& stat, bool certain) {
+    is_certain_ = certain && !may_have_left_;
     visit(stat, Overloaded{
                     [&](const LocalStat& local) {
                       expressions(local.values);
@@ -160,14 +174,16 @@ private:
                     [&](const DoStat& body) { block(*body.body, certain); },
                     [&](const WhileStat& loop) {
                       expression(loop.condition);
-                      branch({nullptr, 0}, *loop.body);
+                      this->loop(loop, *loop.body);
                     },
                     [&](const RepeatStat& loop) {
-                      branch({nullptr, 0}, *loop.body);
+                      this->loop(loop, *loop.body);
+                      is_certain_ = false;
                       expression(loop.condition);
                     },
                     [&](const IfStat& stat) {
                       for (size_t i = 0; i < stat.clauses.size(); ++i) {
+                        is_certain_ = is_certain_ && i == 0;
                         expression(stat.clauses[i].condition);
                         branch({&stat, i}, *stat.clauses[i].body);
                       }
@@ -177,25 +193,31 @@ private:
                       expression(loop.start);
                       expression(loop.limit);
                       expression(loop.step);
-                      branch({nullptr, 0}, *loop.body);
+                      this->loop(loop, *loop.body);
                     },
                     [&](const GenericForStat& loop) {
                       expressions(loop.values);
-                      branch({nullptr, 0}, *loop.body);
+                      this->loop(loop, *loop.body);
                     },
                     [&](const FunctionStat& definition) {
                       if (const auto* name = try_as<NameExpr>(definition.target)) {
-                        define(*name, definition.function, certain);
+                        define(*name, definition.function, certain, definition.span);
                       } else {
                         expression(definition.target);
                       }
                       function(*definition.function);
                     },
                     [&](const LocalFunctionStat& definition) { function(*definition.function); },
-                    [&](const ReturnStat& result) { expressions(result.values); },
+                    [&](const ReturnStat& result) {
+                      expressions(result.values);
+                      leave();
+                    },
+                    [&](const GotoStat&) { leave(); },
                     [](const auto&) {},
                 });
   }
+
+  void leave() { may_have_left_ = may_have_left_ || function_depth_ == 0; }
 
 public:
   void mark_used() {
@@ -205,8 +227,12 @@ public:
 
 private:
   Globals& globals_;
-  std::vector<const CallExpr*>& require_calls_;
+  std::vector<RequireCall>& require_calls_;
   unsigned function_depth_ = 0;
+  std::optional<uint32_t> loop_begin_; ///< of the outermost loop of the top level
+  bool is_certain_ = true;             ///< the expression being walked is reached whatever happens
+  bool may_have_left_ = false;         ///< a statement of the top level before this one leaves its block
+  unsigned skippable_ = 0;             ///< right sides of `and` and `or` around the expression
   const Block* block_ = nullptr;
   Path path_;
   struct Declaration {
@@ -220,7 +246,7 @@ private:
 
 } // namespace
 
-void collect_globals(const Chunk& chunk, Globals& globals, std::vector<const CallExpr*>& calls) {
+void collect_globals(const Chunk& chunk, Globals& globals, std::vector<RequireCall>& calls) {
   Collector collector(globals, calls);
   collector.block(*chunk.main->body, true);
   collector.mark_used();

@@ -20,7 +20,10 @@ struct Global {
   bool is_used = false;   ///< some expression names it
   bool in_branch = false; ///< the first definition stands in a branch or a loop
   bool is_broken = false; ///< a function, but defined several times or in a branch: stands for nothing
-  Variable variable;      ///< of a variable
+  bool is_single = true;  ///< nothing but the first definition assigns it
+  /// Where in its file it may have its value from: behind the first definition, or where the loop around that begins.
+  uint32_t begins = 0;
+  Variable variable; ///< of a variable
 };
 
 struct Globals {
@@ -42,9 +45,15 @@ struct Globals {
   }
 };
 
+/// A call of `require`; a certain one is reached whatever happens.
+struct RequireCall {
+  const syntax::CallExpr* call = nullptr;
+  bool is_certain = false;
+};
+
 /// Globals that stand for a function but are defined more than once, or only on some paths, are marked as broken; the
 /// walk refuses their definitions.
 /// `calls` gets the calls of `require` in the chunk, in order.
-void collect_globals(const syntax::Chunk& chunk, Globals& globals, std::vector<const syntax::CallExpr*>& calls);
+void collect_globals(const syntax::Chunk& chunk, Globals& globals, std::vector<RequireCall>& calls);
 
 } // namespace moonshade::sema

@@ -32,12 +32,22 @@ class Loader {
 public:
   Loader(Context& context, const Options& options) : context_(context), options_(options) {}
 
+  /// In the order in which they run.
+  const std::vector<HiddenNames::File>& files() const { return files_; }
+
   void load(const Chunk& chunk) {
-    std::vector<const CallExpr*> calls;
+    std::vector<RequireCall> calls;
     collect_globals(chunk, context_.globals, calls);
-    if (context_.globals.find("require") != nullptr) return; // the shader's own
-    for (const CallExpr* call : calls)
-      require(*call);
+    HiddenNames::File file{chunk.main->span.file, context_.modules.size(), is_certain_};
+    if (context_.globals.find("require") != nullptr) calls.clear(); // the shader's own
+    for (const RequireCall& each : calls) {
+      const size_t first = context_.modules.size();
+      is_certain_ = file.is_certain && each.is_certain;
+      require(*each.call);
+      const size_t last = context_.modules.size();
+      if (each.is_certain && first < last) file.required.push_back({each.call->span.end, first, last});
+    }
+    files_.push_back(std::move(file));
   }
 
 private:
@@ -89,13 +99,19 @@ private:
 
   Context& context_;
   const Options& options_;
+  bool is_certain_ = true; ///< the file that is loaded next runs whatever happens
+  std::vector<HiddenNames::File> files_;
   std::vector<Open> open_;
   std::vector<std::string> seen_;
 };
 
 } // namespace
 
-void collect_modules(Context& context, const Options& options) { Loader(context, options).load(context.chunk); }
+void collect_modules(Context& context, const Options& options) {
+  Loader loader(context, options);
+  loader.load(context.chunk);
+  context.hidden_names.order_by(context.globals, loader.files());
+}
 
 void Walker::run_modules() {
   for (size_t i = 0; i < context_.modules.size(); ++i) {

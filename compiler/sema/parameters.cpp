@@ -119,7 +119,7 @@ private:
 /// Names in constants mean the library's things unless the shader defines them.
 std::string_view Walker::constant_name(const Expr& expr) {
   const auto is_library = [&](const NameExpr* name) {
-    return name != nullptr && name->is_global() && context_.globals.find(name->name) == nullptr;
+    return name != nullptr && name->is_global() && context_.find_global(work_, *name) == nullptr;
   };
   if (const auto* name = try_as<NameExpr>(&expr))
     return is_library(name) && is_built_in(name->name) ? name->name : std::string_view{};
@@ -198,7 +198,7 @@ bool Walker::depends_on_parameter(const Expr& expr) const {
                    [&](const NameExpr& name) {
                      if (name.local != nullptr) return context_.from_parameters.contains(name.local);
                      if (name.name == "param") return true;
-                     const Global* global = context_.globals.find(name.name);
+                     const Global* global = context_.find_global(work_, name);
                      return global != nullptr && context_.from_parameters.contains(global);
                    },
                    [&](const IndexExpr& index) { return depends_on_parameter(*index.object); },

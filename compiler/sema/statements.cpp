@@ -1,5 +1,6 @@
 // Statements. Scopes were resolved by the parser; here variables get their types, and assignments to what a shader may
 // not assign are refused.
+#include "compiler/sema/entries.h"
 #include "compiler/sema/walker.h"
 
 #include <algorithm>
@@ -215,7 +216,10 @@ void Walker::assign_name(const AssignStat& stat, const NameExpr& target, const T
   if (global == nullptr) return;
   if (global->is_broken) refuse_definition(*global, target.span);
   if (global->is_broken || global->function != nullptr) return;
-  if (is_function(type)) {
+  // A name for what the library has is known, if it is no entry point; functions of the shader are defined.
+  const bool is_alias =
+      type.kind == Type::Kind::Library && global->is_single && !global->in_branch && !is_entry_of_table(target.name);
+  if (is_function(type) && !is_alias) {
     refuse_function(stat.span, text, &given);
     return;
   }
@@ -225,7 +229,7 @@ void Walker::assign_name(const AssignStat& stat, const NameExpr& target, const T
   }
   trace_parameter(global, &given);
   give(global->variable, type, given.span, &given, target.name);
-  global_name(target);
+  global_of_shader(target, *global);
 }
 
 /// `local t` without a value, and the table in the same block or in each branch of an `if`.
@@ -392,7 +396,7 @@ const CallExpr* Walker::ipairs_call(const GenericForStat& stat) const {
   const auto* call = stat.values.size() == 1 ? try_as<CallExpr>(stat.values[0]) : nullptr;
   const auto* name = call != nullptr ? try_as<NameExpr>(call->callee) : nullptr;
   const bool is_library = name != nullptr && name->is_global() && name->environment == nullptr &&
-                          context_.globals.by_name.find(name->name) == context_.globals.by_name.end();
+                          context_.find_global(work_, *name) == nullptr;
   return is_library && name->name == "ipairs" ? call : nullptr;
 }
 
@@ -431,7 +435,7 @@ void Walker::generic_for(const GenericForStat& stat) {
 void Walker::refuse_generic_for(const GenericForStat& stat) {
   const auto* call = stat.values.empty() ? nullptr : try_as<CallExpr>(stat.values[0]);
   const auto* name = call != nullptr ? try_as<NameExpr>(call->callee) : nullptr;
-  const bool is_named = name != nullptr && name->is_global() && context_.globals.find(name->name) == nullptr &&
+  const bool is_named = name != nullptr && name->is_global() && context_.find_global(work_, *name) == nullptr &&
                         (name->name == "pairs" || name->name == "next");
   if (is_named) {
     refuse_name(name->span, name->name);

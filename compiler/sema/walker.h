@@ -29,6 +29,7 @@ private:
   Type name(const syntax::NameExpr& expr);
   Type local_name(const syntax::NameExpr& expr);
   Type global_name(const syntax::NameExpr& expr);
+  Type global_of_shader(const syntax::NameExpr& expr, Global& global);
   Type index(const syntax::IndexExpr& expr);
   Type library_field(const syntax::IndexExpr& expr, std::string_view table);
   Type vector_component(const syntax::IndexExpr& expr, const Type& object);

@@ -4,6 +4,7 @@
 
 #include "compiler/sema/names.h"
 
+#include <algorithm>
 #include <map>
 #include <set>
 #include <unordered_map>
@@ -79,10 +80,21 @@ private:
   void note_call(const Expr& callee) {
     const auto* name = try_as<NameExpr>(&callee);
     if (name == nullptr) return;
-    if (name->is_global())
+    if (name->is_global() && !is_of_library(*name))
       called_globals_.try_emplace(name->name, name->span);
-    else if (name->local->kind == LocalKind::Variable || name->local->kind == LocalKind::Function)
+    else if (name->local != nullptr &&
+             (name->local->kind == LocalKind::Variable || name->local->kind == LocalKind::Function))
       called_locals_.try_emplace(name->local, name->span);
+  }
+
+  /// The global stands for what the library has, wherever it is reached: it is not defined yet, or a name for that.
+  bool is_of_library(const NameExpr& name) const {
+    const auto specialisations = specialisations_.find(function_);
+    if (specialisations == specialisations_.end()) return false;
+    return std::ranges::all_of(specialisations->second, [&](const Specialisation* specialisation) {
+      const auto fact = specialisation->expressions.find(name.id);
+      return fact != specialisation->expressions.end() && fact->second.name == NameKind::Library;
+    });
   }
 
   void define(const Expr& target) {

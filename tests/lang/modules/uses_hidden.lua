@@ -1,0 +1,2 @@
+require "modules.hides"
+return { value = fract(2) }
