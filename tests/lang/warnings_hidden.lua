@@ -20,3 +20,9 @@ end
 -- warning: 8:10 hidden-library-name
 -- warning: 11:18 hidden-library-name
 -- warning: 12:9 hidden-library-name
+
+-- Called above its definition alone, and a global name for the library's own.
+local above = max(1, 2)
+function max(a) return a + above end
+saturate = saturate
+function ends(p) return saturate(p.x) end
