@@ -56,11 +56,12 @@ PrintableCharacter printable_character(std::string_view text) {
   return {decoded.bytes == 0 ? 1 : decoded.bytes, std::move(shown), columns};
 }
 
-std::string printable(std::string_view text) {
+std::string printable(std::string_view text, std::string_view kept) {
   std::string result;
   while (!text.empty()) {
     const PrintableCharacter character = printable_character(text);
-    result += character.shown;
+    const bool is_kept = kept.find(text[0]) != std::string_view::npos;
+    result += is_kept ? std::string(1, text[0]) : character.shown;
     text.remove_prefix(character.bytes);
   }
   return result;

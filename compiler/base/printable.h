@@ -18,7 +18,7 @@ struct PrintableCharacter {
 };
 PrintableCharacter printable_character(std::string_view text);
 
-/// The whole text, made safe.
-std::string printable(std::string_view text);
+/// The whole text, made safe. Characters of `kept` stay as they are: line ends and tabs, where a text has lines.
+std::string printable(std::string_view text, std::string_view kept = {});
 
 } // namespace moonshade

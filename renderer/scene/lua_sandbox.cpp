@@ -395,7 +395,9 @@ SandboxRun run_scene_file(const std::string& name, std::string_view text, std::s
   if (lua_rawgetp(L, LUA_REGISTRYINDEX, &kPrinted) == LUA_TTABLE)
     for (size_t i = 1, n = lua_rawlen(L, -1); i <= n; ++i, lua_settop(L, 1)) {
       lua_rawgeti(L, -1, lua_Integer(i));
-      run.printed.push_back(lua_tostring(L, -1));
+      size_t length = 0;
+      const char* text = lua_tolstring(L, -1, &length);
+      run.printed.emplace_back(text, length);
     }
   lua_settop(L, 0);
   if (ok && lua_rawgetp(L, LUA_REGISTRYINDEX, &kCalls) == LUA_TTABLE) {

@@ -41,7 +41,7 @@ struct SandboxLimits {
 
 struct SandboxRun {
   std::vector<SceneCall> calls;
-  std::vector<std::string> printed; ///< by `print`, at most 100 lines
+  std::vector<std::string> printed; ///< by `print`, at most 100 calls
   std::string error;                ///< "FILE:LINE: ..."
 };
 

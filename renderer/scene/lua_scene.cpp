@@ -483,8 +483,14 @@ bool SceneBuilder::apply(const SceneCall& call, size_t index) {
 }
 
 SceneReading SceneBuilder::build(SandboxRun run) {
-  for (const std::string& line : run.printed)
-    reading_.warnings.push_back(path_ + ": print: " + line);
+  constexpr size_t kMostLines = 100;
+  for (std::string_view text : run.printed)
+    for (bool goes_on = true; goes_on && reading_.warnings.size() < kMostLines;) {
+      const size_t end = text.find('\n');
+      reading_.warnings.push_back(path_ + ": print: " + std::string(text.substr(0, end)));
+      goes_on = end != std::string_view::npos;
+      if (goes_on) text.remove_prefix(end + 1);
+    }
   reading_.error = run.error;
   if (!run.error.empty()) return std::move(reading_);
   for (size_t pass = 0; pass < 2; ++pass)

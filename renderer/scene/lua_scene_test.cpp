@@ -10,6 +10,7 @@
 namespace moonshade::renderer {
 namespace {
 
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using testing::TemporaryFolder;
 
@@ -118,6 +119,13 @@ TEST_F(LuaScene, KnowsTheFieldsOfTheTypeAlone) {
   const char* text = "light{ type = 'environment', image = 'a.png', params = { a = 1 } }";
   EXPECT_THAT(parse_lua_scene(folder_ / "s.lua", text, folder_.folders()).error,
               HasSubstr("s.lua:1: light: 'params' are those of a 'shader'"));
+}
+
+TEST_F(LuaScene, TellsWhatItPrintsLineByLine) {
+  EXPECT_THAT(
+      parse("print('a', 1) print('b\\nc\\0d') print() sphere{}").warnings,
+      ElementsAre("s.lua: print: a\t1", "s.lua: print: b", std::string("s.lua: print: c\0d", 17), "s.lua: print: "));
+  EXPECT_EQ(parse("for i = 1, 200 do print(('x\\n'):rep(1000)) end sphere{}").warnings.size(), 100u);
 }
 
 TEST_F(LuaScene, OpensOnlyFilesOfItsFolders) {

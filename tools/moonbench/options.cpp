@@ -1,6 +1,7 @@
 // The command line of moonbench: docs/tools.md is its contract.
 #include "tools/moonbench/options.h"
 
+#include "compiler/base/printable.h"
 #include "tools/support/arguments.h"
 #include "tools/support/exit_status.h"
 
@@ -46,7 +47,7 @@ std::vector<std::string> gallery() {
 } // namespace
 
 int fail(int status, const std::string& message) {
-  std::cerr << "moonbench: error: " << message << "\n";
+  std::cerr << "moonbench: error: " << printable(message, "\n\t") << "\n";
   return status;
 }
 

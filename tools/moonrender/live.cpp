@@ -1,6 +1,7 @@
 // Failures here end no render.
 #include "tools/moonrender/live.h"
 
+#include "tools/moonrender/messages.h"
 #include "tools/support/interrupt.h"
 
 #include <iostream>
@@ -30,7 +31,7 @@ void LiveViews::refresh(const std::function<renderer::Picture()>& picture, uint3
   renderer::Picture now = picture();
   if (tev_.connected())
     if (std::string error = tev_.show(name_, now); !error.empty())
-      std::cerr << "moonrender: warning: " << error << "; the render goes on without it\n";
+      std::cerr << "moonrender: warning: " << shown(error) << "; the render goes on without it\n";
   if (preview_ && !preview_failed_) {
     renderer::ImageMetadata metadata = metadata_;
     metadata.facts.emplace_back("samples", std::to_string(samples));
@@ -40,7 +41,7 @@ void LiveViews::refresh(const std::function<renderer::Picture()>& picture, uint3
     });
     preview_failed_ = !error.empty();
     if (preview_failed_)
-      std::cerr << "moonrender: warning: --preview: " << error << "; the render goes on without it\n";
+      std::cerr << "moonrender: warning: --preview: " << shown(error) << "; the render goes on without it\n";
   }
   double cost = std::chrono::duration<double>(Clock::now() - start).count();
   next_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(

@@ -7,11 +7,7 @@ namespace moonshade::moonrender {
 std::string shown(std::string_view line) {
   constexpr size_t kMost = 4000;
   const bool is_long = line.size() > kMost;
-  std::string text = printable(line.substr(0, kMost));
-  // Printed values stand between tabs.
-  for (size_t at = 0; (at = text.find("\\x09", at)) != std::string::npos;)
-    text.replace(at, 4, "\t");
-  return text + (is_long ? " ..." : "");
+  return printable(line.substr(0, kMost), "\t") + (is_long ? " ..." : "");
 }
 
 std::string shown_lines(std::string_view lines) {

@@ -22,7 +22,7 @@ using namespace tools;
 
 namespace {
 
-void warn(const std::string& message) { std::cerr << "moonrender: warning: " << message << "\n"; }
+void warn(const std::string& message) { std::cerr << "moonrender: warning: " << shown_lines(message); }
 
 void list_faults(const renderer::RenderResult& result) {
   if (result.faults.empty()) return;
@@ -215,7 +215,7 @@ int PictureJob::keep_elsewhere(const std::string& error, const renderer::ImageMe
   renderer::ImageFile file;
   std::string second = file.open(rescue);
   if (second.empty()) second = file.write(result_.picture, {}, metadata, {result_.film.get(), options_.aovs});
-  if (second.empty()) std::cerr << "moonrender: the picture is kept as " << rescue << "\n";
+  if (second.empty()) std::cerr << "moonrender: the picture is kept as " << shown(rescue) << "\n";
   if (checkpoint_lies_there_) std::cerr << "moonrender: the checkpoint is kept; --resume goes on from it\n";
   return kMachineAtFault;
 }

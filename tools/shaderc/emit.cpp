@@ -1,4 +1,5 @@
 // --emit: one stage of the compiler as text or object file.
+#include "compiler/base/printable.h"
 #include "compiler/sema/luals.h"
 #include "tools/shaderc/actions.h"
 #include "tools/shaderc/check.h"
@@ -15,7 +16,7 @@ namespace {
 int write_output(const Options& options, const std::string& bytes) {
   const std::string output = options.output.empty() ? "-" : options.output;
   if (const std::string error = tools::write_file(output, bytes); !error.empty()) {
-    std::cerr << "shaderc: error: cannot write '" << output << "': " << error << "\n";
+    std::cerr << "shaderc: error: cannot write '" << printable(output) << "': " << error << "\n";
     return tools::kMachineAtFault;
   }
   return tools::kDone;

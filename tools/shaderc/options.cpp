@@ -1,6 +1,7 @@
 // The command line of shaderc: docs/tools.md is its contract.
 #include "tools/shaderc/options.h"
 
+#include "compiler/base/printable.h"
 #include "tools/support/arguments.h"
 #include "tools/support/cache_options.h"
 #include "tools/support/exit_status.h"
@@ -189,7 +190,7 @@ void settle(Options& options, const Raw& raw) {
 } // namespace
 
 int call_error(const std::string& message) {
-  std::cerr << "shaderc: error: " << message << "\n";
+  std::cerr << "shaderc: error: " << printable(message, "\n\t") << "\n";
   return kCallAtFault;
 }
 

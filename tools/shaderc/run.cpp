@@ -1,4 +1,5 @@
 // --run: evaluates one entry at one point or at the points of a CSV file, in blocks, so that files of any size stream.
+#include "compiler/base/printable.h"
 #include "runtime/interpret.h"
 #include "tools/shaderc/actions.h"
 #include "tools/shaderc/check.h"
@@ -25,8 +26,11 @@ constexpr size_t kBlock = 8192;
 /// What a step gives: nothing, or the exit status with which to end (the reason is printed).
 using Ending = std::optional<int>;
 
+/// What the shader or the points had a part in, on standard error: terminals must not obey it.
+void say(std::string_view text) { std::cerr << printable(text, "\n\t") << '\n'; }
+
 int machine_error(const std::string& message) {
-  std::cerr << "shaderc: error: " << message << "\n";
+  say("shaderc: error: " + message);
   return kMachineAtFault;
 }
 
@@ -80,7 +84,7 @@ Ending instantiate(const CheckedShader& checked, const Options& options, std::sh
     instance = compilation.program->instantiate(parameters);
   }
   if (!instance.shader) {
-    std::cerr << as_diagnostic(instance.error, checked) << "\n";
+    say(as_diagnostic(instance.error, checked));
     return kInputAtFault;
   }
   shader = instance.shader;
@@ -142,7 +146,7 @@ Ending read_header(const std::vector<std::string>& header, const Options& option
 Ending read_row(const CsvReader& csv, const Options& options, const std::vector<Source>& sources, Points& points,
                 size_t row) {
   const auto fail = [&](const std::string& message) {
-    std::cerr << options.points << ":" << csv.line() << ":1: error: " << message << "\n";
+    say(options.points + ":" + std::to_string(csv.line()) + ":1: error: " + message);
     return kInputAtFault;
   };
   for (size_t i = 0; i < sources.size(); ++i) {
@@ -192,9 +196,8 @@ public:
   int finish() {
     if (std::fflush(stdout) != 0) return machine_error("cannot write to standard output");
     if (faults_ == 0) return kDone;
-    std::cerr << first_;
-    if (done_ > 1) std::cerr << "; " << faults_ << " of " << done_ << " points faulted";
-    std::cerr << "\n";
+    if (done_ > 1) first_ += "; " + std::to_string(faults_) + " of " + std::to_string(done_) + " points faulted";
+    say(first_);
     return kInputAtFault;
   }
 
@@ -203,7 +206,7 @@ private:
   void print_lines(size_t count) {
     for (size_t row = 0; row < count && shader_.has_prints() && lines_ < kMostLines; ++row)
       points_.print(shader_, entry_, row, [&](std::string_view line) {
-        if (lines_++ < kMostLines) std::cerr << line << '\n';
+        if (lines_++ < kMostLines) say(line);
       });
   }
 
@@ -263,9 +266,8 @@ int run_shader(const CheckedShader& checked, const Options& options) {
     csv.emplace(options.points);
     const bool has_header = csv->next();
     if (!has_header) {
-      std::cerr << options.points << ":1:1: error: "
-                << (csv->error().empty() ? "the header line is missing" : "cannot read the file: " + csv->error())
-                << "\n";
+      say(options.points + ":1:1: error: " +
+          (csv->error().empty() ? "the header line is missing" : "cannot read the file: " + csv->error()));
       return kInputAtFault;
     }
     if (const Ending ending = read_header(csv->fields(), options, sources)) return *ending;

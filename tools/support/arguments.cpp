@@ -1,6 +1,7 @@
 // Help and version are standard output, errors of the call standard error.
 #include "tools/support/arguments.h"
 
+#include "compiler/base/printable.h"
 #include "tools/support/exit_status.h"
 #include "tools/support/files.h"
 
@@ -18,7 +19,7 @@ std::optional<int> parse_arguments(CLI::App& app, int argc, char** argv, const c
     std::cout << call.what() << "\n";
     return finish_output(program);
   } catch (const CLI::ParseError& error) {
-    std::cerr << program << ": error: " << error.what() << "\nTry '" << program << " --help'.\n";
+    std::cerr << program << ": error: " << printable(error.what(), "\n\t") << "\nTry '" << program << " --help'.\n";
     return kCallAtFault;
   }
   return std::nullopt;
