@@ -258,7 +258,33 @@ Type Walker::equality(const BinaryExpr& expr, const Type& left, const Type& righ
   return boolean_type();
 }
 
+namespace {
+
+/// By bytes, as stock Lua compares in the locale "C".
+bool is_ordered(BinaryOp op, std::string_view left, std::string_view right) {
+  switch (op) {
+  case BinaryOp::Lt:
+    return left < right;
+  case BinaryOp::Le:
+    return left <= right;
+  case BinaryOp::Gt:
+    return left > right;
+  default:
+    return left >= right;
+  }
+}
+
+} // namespace
+
 Type Walker::ordering(const BinaryExpr& expr, const Type& left, const Type& right) {
+  const auto is_constant = [](const Type& type) { return type.kind == Type::Kind::String && !type.is_parameter; };
+  if (is_constant(left) && is_constant(right)) {
+    ExpressionFact fact;
+    fact.type = boolean_type();
+    fact.form = OperatorForm::Constant;
+    fact.integer_constant = is_ordered(expr.op, left.text, right.text);
+    return record(expr, std::move(fact));
+  }
   const std::string op(spelling_of(expr.op));
   bool fits = true;
   for (const auto& [operand, type] : {std::pair{expr.left, left}, std::pair{expr.right, right}}) {
