@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <optional>
-#include <utility>
 
 namespace moonshade::sema {
 
@@ -18,10 +17,8 @@ public:
       : globals_(globals), require_calls_(require_calls) {}
 
   void block(const Block& block, bool certain) {
-    const Block* const around = std::exchange(block_, &block);
     for (const Stat* stat : block.stats)
       statement(*stat, certain);
-    block_ = around;
   }
 
 private:
@@ -44,8 +41,8 @@ private:
     const auto declared = declared_in_.find(&local);
     if (declared == declared_in_.end()) return;
     std::vector<Path>& before = assigned_[&local];
-    const size_t depth = declared->second.depth;
-    if (before.empty() && declared->second.block == block_) {
+    const size_t depth = declared->second;
+    if (before.empty() && depth == path_.size()) {
       globals_.assigned_once.insert(&local);
     } else {
       globals_.assigned_once.erase(&local);
@@ -167,7 +164,7 @@ private:
                       expressions(local.values);
                       if (!local.values.empty()) return;
                       for (const Local* each : local.locals)
-                        declared_in_[each] = {block_, path_.size()};
+                        declared_in_[each] = path_.size();
                     },
                     [&](const AssignStat& assign) { assignment(assign, certain); },
                     [&](const CallStat& call) { expression(call.call); },
@@ -233,13 +230,8 @@ private:
   bool is_certain_ = true;             ///< the expression being walked is reached whatever happens
   bool may_have_left_ = false;         ///< a statement of the top level before this one leaves its block
   unsigned skippable_ = 0;             ///< right sides of `and` and `or` around the expression
-  const Block* block_ = nullptr;
   Path path_;
-  struct Declaration {
-    const Block* block = nullptr;
-    size_t depth = 0; ///< of the path there
-  };
-  std::unordered_map<const Local*, Declaration> declared_in_; ///< of those declared without a value
+  std::unordered_map<const Local*, size_t> declared_in_; ///< of those declared without a value: the path's length there
   std::unordered_map<const Local*, std::vector<Path>> assigned_;
   std::vector<std::string_view> used_;
 };

@@ -32,8 +32,9 @@ struct Globals {
   std::vector<Global*> functions;
   /// Names that only functions assign, which is refused there.
   std::set<std::string_view> assigned_inside;
-  /// Locals declared without a value and assigned once, in the block of the declaration: such a one may stand for a
-  /// function (`local f ... function f() end`), which then captures nothing that lives shorter than the name.
+  /// Locals declared without a value and assigned once, in the block of the declaration or in a `do` within: such a one
+  /// may stand for a function (`local f ... function f() end`), which then captures nothing that lives shorter than the
+  /// name, for its block runs as often as that.
   std::set<const syntax::Local*> assigned_once;
   /// Those that are assigned in branches of `if`s alone, of which at most one is taken: such a one may stand for a
   /// table that is built in each.

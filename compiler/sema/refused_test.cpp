@@ -170,9 +170,9 @@ INSTANTIATE_TEST_SUITE_P(
                    "if much > 1 then\n  $f = function(x) return x end\nelse\n  $f = sin\nend",
                    {"depends-on-parameter", "depends-on-parameter"}},
            Refusal{"local fancy = param('fancy', true)\nlocal f = $fancy and sin or cos", {"depends-on-parameter"}},
-           Refusal{"function height(p)\n  local f\n  do local k = 1 $f = function() return k end end\n"
-                   "  return f()\nend",
-                   {"function-not-known"}},
+           Refusal{"function height(p)\n  local f\n  for k = 1, 1 do $f = function() return k end end\n"
+                   "  return $f()\nend",
+                   {"function-not-known", "unassigned-variable"}},
            Refusal{"function height(p)\n  local f = function() return 1 end\n  $f = function() return 2 end\n"
                    "  return 1\nend",
                    {"function-not-known"}},
