@@ -272,7 +272,7 @@ void Context::report_walk(const std::vector<Work*>& roots) {
 void Context::continue_report_walk(const std::vector<Work*>& roots) { walk_roots(*this, roots); }
 
 Diagnostic& Context::error(DiagnosticCode code, Span span, std::initializer_list<std::string> args) {
-  if (!report || !reported.insert({span.begin, span.end}).second) return silent = Diagnostic{};
+  if (!report || !reported.insert({span.file, span.begin, span.end}).second) return silent = Diagnostic{};
   return diagnostics.report(code, span, args);
 }
 

@@ -169,8 +169,8 @@ struct Context {
 
   /// An expression of the program without a type: some error must have been reported.
   const syntax::Expr* untyped = nullptr;
-  std::set<std::pair<uint32_t, uint32_t>> reported;         ///< spans, so that each place is reported once
-  std::set<std::pair<const void*, const void*>> recursions; ///< reported ones, by caller and callee
+  std::set<std::tuple<FileId, uint32_t, uint32_t>> reported; ///< spans, so that each place is reported once
+  std::set<std::pair<const void*, const void*>> recursions;  ///< reported ones, by caller and callee
   /// Variables (syntax::Local or Global) whose values depend on the shader's parameters.
   std::set<const void*> from_parameters;
   std::unordered_map<std::string, unsigned> name_counts;
@@ -231,7 +231,7 @@ struct Context {
   /// A limit is exceeded: reported at once, and everything ends.
   void too_large(Span span, std::string what, size_t limit);
   /// error(), with notes "in height(vec3), called here" up to the entry point.
-  bool is_reported(Span span) const { return reported.contains({span.begin, span.end}); }
+  bool is_reported(Span span) const { return reported.contains({span.file, span.begin, span.end}); }
   Diagnostic& type_error(const Work& work, DiagnosticCode code, Span span,
                          std::initializer_list<std::string> args = {});
 };

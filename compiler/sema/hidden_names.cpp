@@ -1,5 +1,5 @@
-// Places in files are compared, so a name in a loop that assigns it counts as the shader's from the loop's beginning on;
-// whether it has a value there is the matter of assigned.cpp.
+// Places in files are compared, so a name in a loop that assigns it counts as the shader's from the loop's beginning
+// on; whether it has a value there is the matter of assigned.cpp.
 #include "compiler/sema/hidden_names.h"
 
 #include "compiler/sema/names.h"
@@ -42,7 +42,8 @@ void HiddenNames::order_by(const Globals& globals, const std::vector<File>& file
       const bool is_certain = number < files.size() && files[number].is_certain;
       timeline.begins.emplace_back(is_own ? global->begins : is_certain ? begin_in(file, number) : UINT32_MAX, global);
     }
-    std::ranges::sort(timeline.begins, {}, [](const Begin& begin) { return std::pair(begin.first, begin.second->name); });
+    std::ranges::sort(timeline.begins, {},
+                      [](const Begin& begin) { return std::pair(begin.first, begin.second->name); });
   }
 }
 

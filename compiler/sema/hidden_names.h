@@ -1,6 +1,6 @@
-// Globals that hide a name of the library. As in Lua, such a name is the library's until the shader gives it a value, and
-// a function sees what it is when it is called. While shading that is the shader's; while the top level runs it depends
-// on the place, or on that of the call that led there. A moment stands for such a place.
+// Globals that hide a name of the library. As in Lua, such a name is the library's until the shader gives it a value,
+// and a function sees what it is when it is called. While shading that is the shader's; while the top level runs it
+// depends on the place, or on that of the call that led there. A moment stands for such a place.
 #pragma once
 
 #include "compiler/sema/globals.h"

@@ -1,0 +1,3 @@
+-- Errs where who requires it also err
+function module(p) return nothing end
+return { module = module }
