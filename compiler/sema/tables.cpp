@@ -334,29 +334,33 @@ void Walker::place_leaves(Table& table) {
 // ---- access --------------------------------------------------------------------------------------------------------
 
 Table::Field* Walker::accessed_field(const IndexExpr& expr, const Table& table) {
-  const auto* name = try_as<StringExpr>(&strip_parentheses(*expr.key));
-  const Type key = expr.is_dotted ? string_type({}) : expression(*expr.key);
-  if (table.kind == Table::Kind::Array && name == nullptr) {
+  const Type key =
+      expr.is_dotted ? string_type(static_cast<const StringExpr&>(*expr.key).value) : expression(*expr.key);
+  // A name for a constant string is as good as the string; of others the parts would have to be evaluated.
+  const ExprKind written = strip_parentheses(*expr.key).kind;
+  const bool is_name =
+      key.kind == Type::Kind::String && !key.is_parameter && (written == ExprKind::String || written == ExprKind::Name);
+  if (table.kind == Table::Kind::Array && !is_name) {
     if (is_scalar(key)) return table.fields.empty() ? nullptr : table.fields[0];
     if (!is_unknown(key)) type_error(Code::IndexType, expr.key->span, {describe(key)});
     return nullptr;
   }
-  if (name == nullptr) {
+  if (!is_name) {
     if (!is_unknown(key)) type_error(Code::RecordIndex, expr.key->span);
     return nullptr;
   }
-  Table::Field* field = table.kind == Table::Kind::Record ? table.find(name->value) : nullptr;
+  Table::Field* field = table.kind == Table::Kind::Record ? table.find(key.text) : nullptr;
   if (field != nullptr || !context_.report) return field;
   std::vector<std::string_view> names;
   for (const Table::Field* each : table.fields)
     names.push_back(each->name);
-  const auto near = nearest(name->value, names);
+  const auto near = nearest(key.text, names);
   std::string advice = suggestion(near);
   if (table.kind == Table::Kind::Record && advice.empty()) advice = "; it is " + describe_shape(table);
   if (table.kind == Table::Kind::Array) advice = "; its elements are [1] to [" + std::to_string(table.length) + "]";
   suggest_fix(
       type_error(Code::UnknownField, expr.key->span,
-                 {table.kind == Table::Kind::Array ? "an array" : "this record", std::string(name->value), advice}),
+                 {table.kind == Table::Kind::Array ? "an array" : "this record", std::string(key.text), advice}),
       near);
   return nullptr;
 }

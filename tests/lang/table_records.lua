@@ -97,3 +97,14 @@ function referred_to(p)
 end
 -- run: referred_to p=3,4,0
 -- expect: 8
+
+-- A name for a constant string names a field.
+local which <const> = "second"
+function named(time)
+  local r = { first = time, second = 2 * time, inner = { third = 3 } }
+  local key = "inner"
+  r[which] = r[which] + 1
+  return r[which], r["first"], r[key]["third"], r[(key)].third
+end
+-- run: named time=2
+-- expect: 5, 2, 3, 3
