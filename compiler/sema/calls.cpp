@@ -154,6 +154,12 @@ TypeList Walker::method_call(const MethodCallExpr& expr) {
     error(Code::StringBuilding, expr.span, {"the library 'string'"});
     return unknown_values();
   }
+  if (is_table(object)) {
+    const auto* name = try_as<NameExpr>(&strip_parentheses(*expr.object));
+    error(Code::OwnMethod, expr.method.span,
+          {name != nullptr ? std::string(name->name) : "r", std::string(expr.method.text)});
+    return unknown_values();
+  }
   if (!is_vector(object) && !is_matrix(object)) {
     type_error(Code::OperandType, expr.object->span, {":" + std::string(expr.method.text), describe(object)});
     return unknown_values();
