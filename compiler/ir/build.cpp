@@ -119,9 +119,6 @@ void FunctionBuild::run() {
   find_goto_targets(*source.body);
   // Each call of a shader's function is a step of the point; the run of a file is none, nor one of the library's.
   if (source.parent != nullptr && !specialisation_.is_library) b_.step();
-  if (specialisation_.id == 0)
-    for (const sema::Specialisation* module : shared_.program.modules)
-      b_.call(module->id, {}, {}, captures_of(*module));
   receive_parameters();
   statements(*source.body);
   if (specialisation_.id == 0 && !b_.terminated()) store_globals();

@@ -67,6 +67,11 @@ void FunctionBuild::statements(std::span<Stat* const> stats) {
 
 void FunctionBuild::statement(const Stat& stat) {
   const At at(b_, stat.span);
+  if (specialisation_.function->parent == nullptr)
+    if (const auto modules = shared_.program.modules_before.find(&stat);
+        modules != shared_.program.modules_before.end())
+      for (const sema::Specialisation* module : modules->second)
+        b_.call(module->id, {}, {}, captures_of(*module));
   visit(stat, Overloaded{
                   [&](const LocalStat& s) { local(s); },
                   [&](const AssignStat& s) { assign(s); },

@@ -57,8 +57,6 @@ public:
   Flow(Context& context, Work& work) : context_(context), work_(work) {}
 
   void run() {
-    for (size_t i = 0; is_top() && i < context_.modules.size(); ++i)
-      call(module_call(i), context_.modules[i].required);
     block(*work_.function->body);
     if (state_.is_reachable && work_.function->parent != nullptr && !work_.results.empty())
       context_.error(Code::MissingReturn, work_.function->end_span).note(Code::NoteOtherReturn, work_.first_return);
@@ -256,6 +254,8 @@ private:
   }
 
   void statement(const Stat& stat) {
+    for (size_t i = 0; work_.function->parent == nullptr && i < context_.modules.size(); ++i)
+      if (context_.modules[i].before == &stat) call(module_call(i), context_.modules[i].required);
     visit(stat, Overloaded{
                     [&](const LocalStat& node) { local(node); },
                     [&](const AssignStat& node) { assign(node); },

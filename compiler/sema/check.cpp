@@ -74,12 +74,13 @@ Program check(const syntax::Chunk& chunk, const Options& options, Diagnostics& d
     finish_entry(context, plan);
     check_assigned_for_entry(context, *top, *plan.global, *plan.work);
   }
+  check_modules(context);
   check_uncalled(context);
   check_typed(context);
   if (!diagnostics.has_errors()) check_annotations(context);
   for (const Context::Module& module : context.modules) {
     program.info.modules.push_back(module.name);
-    program.modules.push_back(module.work->spec);
+    program.modules_before[module.before].push_back(module.work->spec);
   }
   for (const syntax::Chunk* each : context.chunks())
     if (!diagnostics.has_errors()) check_warnings(*each, program, diagnostics);

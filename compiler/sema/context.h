@@ -137,6 +137,9 @@ struct Context {
     const syntax::Chunk* chunk = nullptr;
     Span required{}; ///< first
     Work* work = nullptr;
+    const syntax::Stat* before = nullptr; ///< the statement of the file that requires it first, before which it runs
+    bool is_certain = true;               ///< stock Lua runs it there, whatever happens
+    size_t first = 0;                     ///< it, and those that run while it does: [first, its number]
   };
   std::deque<Module> modules;                ///< in the order in which they run
   std::optional<LibraryChunk> library_chunk; ///< once it is needed

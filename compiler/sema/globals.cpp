@@ -117,7 +117,7 @@ private:
                      [&](const CallExpr& call) {
                        const auto* name = try_as<NameExpr>(call.callee);
                        if (name != nullptr && name->is_global() && name->name == "require")
-                         require_calls_.push_back({&call, is_certain_ && skippable_ == 0});
+                         require_calls_.push_back({&call, certain_stat_, is_certain_ && skippable_ == 0});
                        expression(call.callee);
                        expressions(call.args);
                      },
@@ -159,6 +159,7 @@ private:
 
   void statement(const Stat& stat, bool certain) {
     is_certain_ = certain && !may_have_left_;
+    if (is_certain_) certain_stat_ = &stat;
     visit(stat, Overloaded{
                     [&](const LocalStat& local) {
                       expressions(local.values);
@@ -227,9 +228,10 @@ private:
   std::vector<RequireCall>& require_calls_;
   unsigned function_depth_ = 0;
   std::optional<uint32_t> loop_begin_; ///< of the outermost loop of the top level
-  bool is_certain_ = true;             ///< the expression being walked is reached whatever happens
-  bool may_have_left_ = false;         ///< a statement of the top level before this one leaves its block
-  unsigned skippable_ = 0;             ///< right sides of `and` and `or` around the expression
+  const Stat* certain_stat_ = nullptr;
+  bool is_certain_ = true;     ///< the expression being walked is reached whatever happens
+  bool may_have_left_ = false; ///< a statement of the top level before this one leaves its block
+  unsigned skippable_ = 0;     ///< right sides of `and` and `or` around the expression
   Path path_;
   std::unordered_map<const Local*, size_t> declared_in_; ///< of those declared without a value: the path's length there
   std::unordered_map<const Local*, std::vector<Path>> assigned_;

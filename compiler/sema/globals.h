@@ -49,6 +49,9 @@ struct Globals {
 /// A call of `require`; a certain one is reached whatever happens.
 struct RequireCall {
   const syntax::CallExpr* call = nullptr;
+  /// The statement in which it stands that is reached whatever happens: the nearest, or the last such one before a
+  /// jump.
+  const syntax::Stat* stat = nullptr;
   bool is_certain = false;
 };
 

@@ -1,6 +1,6 @@
-// Modules run before the top level of the shader, those that others require first: a module depends on nothing but what
-// it requires, so when it runs does not show. Its result is a table or a function, known while compiling; `require` is
-// a name for it.
+// A module runs before the statement that requires it first; where that stands in a branch, loop or function, before
+// the statement of the top level around it, which must not show. Its result is a table or a function, known while
+// compiling; `require` is a name for it.
 #include "compiler/sema/modules.h"
 
 #include "compiler/sema/walker.h"
@@ -43,7 +43,7 @@ public:
     for (const RequireCall& each : calls) {
       const size_t first = context_.modules.size();
       is_certain_ = file.is_certain && each.is_certain;
-      require(*each.call);
+      require(each);
       const size_t last = context_.modules.size();
       if (each.is_certain && first < last) file.required.push_back({each.call->span.end, first, last});
     }
@@ -56,7 +56,8 @@ private:
     const CallExpr* call;
   };
 
-  void require(const CallExpr& call) {
+  void require(const RequireCall& require_call) {
+    const CallExpr& call = *require_call.call;
     const std::string name(module_name(call));
     if (name.empty()) {
       context_.diagnostics.report(Code::ModuleName, call.args.empty() ? call.span : call.args[0]->span);
@@ -80,12 +81,14 @@ private:
       return;
     }
     open_.push_back({name, &call});
+    const size_t first = context_.modules.size();
     load(*loaded.chunk);
     open_.pop_back();
     Work* work = context_.find_or_make({loaded.chunk->main, nullptr, true, nullptr, 0, {}}, call.span);
     if (work == nullptr) return;
     work->site = work->frame_home = context_.top;
-    context_.modules.push_back({name, loaded.chunk, call.span, work});
+    context_.modules.push_back(
+        {name, loaded.chunk, call.span, work, require_call.stat, require_call.is_certain, first});
   }
 
   void refuse_circle(const CallExpr& call, std::vector<Open>::iterator first) {
@@ -113,7 +116,8 @@ void collect_modules(Context& context, const Options& options) {
   context.hidden_names.order_by(context.globals, loader.files());
 }
 
-void Walker::run_modules() {
+/// Types of modules, those that others require first: by their results those are inferred.
+void Walker::infer_modules() {
   for (size_t i = 0; i < context_.modules.size(); ++i) {
     Context::Module& module = context_.modules[i];
     if (module.work->round != context_.round) {
@@ -121,7 +125,52 @@ void Walker::run_modules() {
       module.work->call_span = module.required;
       context_.analyse(*module.work);
     }
-    if (context_.report && module.work->spec != nullptr) work_.callees[module_call(i)] = {module.work, module.required};
+  }
+}
+
+void Walker::run_modules_before(const Stat& stat) {
+  for (size_t i = 0; i < context_.modules.size(); ++i) {
+    const Context::Module& module = context_.modules[i];
+    if (module.before == &stat && module.work->spec != nullptr)
+      work_.callees[module_call(i)] = {module.work, module.required};
+  }
+}
+
+namespace {
+
+FileId file_of(const Work& work) { return work.function->span.file; }
+
+/// Whether a variable changes while files run, so that it matters when it is used.
+bool is_changing(const Context& context, const Variable& variable) {
+  if (variable.table != nullptr) return variable.table->outermost()->is_mutated;
+  for (const auto& [local, each] : variable.owner->variables)
+    if (&each == &variable) return local->is_assigned;
+  for (const auto& [name, global] : context.globals.by_name)
+    if (&global.variable == &variable) return !global.is_single;
+  return false;
+}
+
+} // namespace
+
+void check_modules(Context& context) {
+  for (size_t i = 0; i < context.modules.size(); ++i) {
+    const Context::Module& module = context.modules[i];
+    if (module.is_certain) continue;
+    const auto is_own = [&](FileId file) {
+      for (size_t k = module.first; k <= i; ++k)
+        if (file_of(*context.modules[k].work) == file) return true;
+      return false;
+    };
+    std::string_view global; // the first by name: hash tables have no order of their own
+    for (const auto& [name, each] : context.globals.by_name)
+      if (is_own(each.definition.file) && (global.empty() || name < global)) global = name;
+    if (!global.empty()) context.error(Code::ModuleGlobal, module.required, {module.name, std::string(global)});
+    for (const Variable* variable : module.work->captures) {
+      const Work* maker = variable->table != nullptr ? variable->table->outermost()->maker : variable->owner;
+      if (is_own(file_of(*maker)) || !is_changing(context, *variable)) continue;
+      context.error(Code::ModuleOrder, module.required, {module.name, variable->slot->name});
+      break;
+    }
   }
 }
 

@@ -12,10 +12,13 @@ inline constexpr size_t kMaxModules = 256;
 /// circle, is reported at the `require`.
 void collect_modules(Context& context, const Options& options);
 
+/// After the reporting walk: refuses modules that use what other files change, and run in stock Lua nobody knows when.
+void check_modules(Context& context);
+
 /// The name in a call of `require`; empty where it is no constant or no name of a module.
 std::string_view module_name(const syntax::CallExpr& call);
 
-/// Id of the call that runs module `index`, among the calls of the top level: no expression has it.
+/// Id of the call that runs module `index`, among the calls of the file that requires it first: no expression has it.
 inline uint32_t module_call(size_t index) { return ~static_cast<uint32_t>(index); }
 
 } // namespace moonshade::sema

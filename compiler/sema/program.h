@@ -271,8 +271,8 @@ struct EntryPoint {
 
 struct Program {
   const syntax::Chunk* chunk = nullptr;
-  /// The top levels of the modules that it requires, in the order in which they run, all before its own.
-  std::vector<Specialisation*> modules;
+  /// The top levels of the modules that run before a statement of the shader's file or of a module's, in this order.
+  std::unordered_map<const syntax::Stat*, std::vector<Specialisation*>> modules_before;
   ShaderInfo info;
   std::vector<std::unique_ptr<Specialisation>> specialisations;
   std::vector<GlobalSlot> globals;

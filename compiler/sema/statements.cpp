@@ -13,7 +13,7 @@ using Code = DiagnosticCode;
 void Walker::function_body() {
   const Function& function = *work_.function;
   work_.has_open_return = false;
-  if (&work_ == context_.top) run_modules();
+  if (&work_ == context_.top) infer_modules();
   if (function.is_vararg && !at_top_level()) error(Code::Varargs, function.vararg_span);
   for (size_t i = 0; i < function.params.size(); ++i)
     declare(*function.params[i], i < work_.arguments.size() ? work_.arguments[i] : unknown_type(),
@@ -39,6 +39,7 @@ void Walker::statement(const Stat& stat) {
   if (++context_.walk_depth > kMaxWalkDepth)
     context_.too_large(stat.span, "calls and blocks inside each other are too many", kMaxWalkDepth);
   if (context_.exhausted) return;
+  if (context_.report && at_top_level()) run_modules_before(stat);
   visit(stat, Overloaded{
                   [&](const LocalStat& node) { local(node); },
                   [&](const AssignStat& node) { assign(node); },

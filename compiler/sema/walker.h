@@ -139,7 +139,8 @@ private:
   bool is_free_of_effects(const syntax::Expr& function, const Work& callee, std::string_view name);
 
   // ---- modules.cpp
-  void run_modules();
+  void infer_modules();
+  void run_modules_before(const syntax::Stat& stat);
   TypeList require_module(const syntax::CallExpr& expr);
   void return_from_module(const syntax::ReturnStat& stat, const TypeList& list);
 
