@@ -3,13 +3,14 @@
 #include "tests/oracle/generator_impl.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace moonshade::oracle {
 
 // ---- calls ---------------------------------------------------------------------------------------------------------
 
 bool Generator::can_call(const Function& callee, bool is_statement) const {
-  if (callee.closure != nullptr || !callee.fields.empty()) return false;
+  if (callee.closure != nullptr || !callee.fields.empty() || !is_callable(callee)) return false;
   if (callee.effect != kNoEffect && (!is_statement || !may_assign(callee.effect))) return false;
   return std::ranges::none_of(callee.parameters, [&](const Parameter& parameter) {
     return parameter.is_mutated && (!is_statement || callee.table != nullptr);
@@ -33,7 +34,7 @@ std::string Generator::call(T type, int depth) {
 std::string Generator::call_at_once(T type, int depth) {
   std::vector<const Function*> fits;
   for (const Function& maker : functions_) {
-    if (maker.closure == nullptr || maker.effect != kNoEffect) continue;
+    if (maker.closure == nullptr || maker.effect != kNoEffect || !is_callable(maker)) continue;
     const Function& made = *maker.closure;
     const bool assigns_its_own = made.effect == kNoEffect || made.effect == kOwnState;
     const bool is_fit = assigns_its_own && made.table == nullptr && made.same < 0 &&
@@ -54,12 +55,20 @@ std::string Generator::call_text(const Function& callee, int depth) {
   if (callee.effect != kNoEffect) note_effect(callee.effect);
   std::string text = callee.name + "(";
   for (size_t i = 0; i < callee.parameters.size(); ++i)
-    text += (i ? ", " : "") + argument(callee.parameters[i], depth);
+    text += (i ? ", " : "") + argument(callee, i, depth);
   return text + ")";
 }
 
-std::string Generator::argument(const Parameter& parameter, int depth) {
-  if (!parameter.signature.empty()) return function_argument(parameter.signature, depth);
+std::string Generator::argument(const Function& callee, size_t i, int depth) {
+  const Parameter& parameter = callee.parameters[i];
+  if (!parameter.signature.empty()) {
+    // What is defined behind the callee may call it: a recursion.
+    const auto place = std::ranges::find(functions_, callee.name, &Function::name) - functions_.begin();
+    const size_t before = std::exchange(callable_, std::min(callable_, static_cast<size_t>(place)));
+    std::string text = function_argument(parameter.signature, depth);
+    callable_ = before;
+    return text;
+  }
   if (parameter.type.shape != nullptr) return table_argument(parameter, depth);
   return expression(parameter.type.base, depth - 1);
 }
@@ -133,7 +142,7 @@ void Generator::call_statement() {
     note_write(same);
     text = callee.name + "(";
     for (size_t i = 0; i < callee.parameters.size(); ++i)
-      text += (i ? ", " : "") + (static_cast<int>(i) == callee.same ? kept : argument(callee.parameters[i], 2));
+      text += (i ? ", " : "") + (static_cast<int>(i) == callee.same ? kept : argument(callee, i, 2));
     text += ")";
   } else {
     text = call_text(callee, 2);

@@ -7,6 +7,8 @@
 #include "tests/oracle/generator_types.h"
 #include "tests/oracle/random.h"
 
+#include <algorithm>
+#include <cstdint>
 #include <deque>
 #include <string_view>
 
@@ -81,11 +83,15 @@ private:
   void note_write(const TableVariable& table);
 
   // ---- functions (generator_functions.cpp, generator_closures.cpp) ----
+  /// Both of one of `functions_`.
+  bool is_callable(const Function& callee) const {
+    return &callee < functions_.data() + std::min(callable_, functions_.size());
+  }
   bool can_call(const Function& callee, bool is_statement) const;
   std::string call(T type, int depth);         ///< empty where there is none
   std::string call_at_once(T type, int depth); ///< likewise
   std::string call_text(const Function& callee, int depth);
-  std::string argument(const Parameter& parameter, int depth);
+  std::string argument(const Function& callee, size_t i, int depth);
   std::string function_argument(const std::vector<T>& signature, int depth);
   std::string table_argument(const Parameter& parameter, int depth);
   std::string result_list();
@@ -136,7 +142,8 @@ private:
   std::deque<Shape> shapes_;
   std::vector<Variable> scope_;
   std::vector<TableVariable> tables_;
-  std::vector<Function> functions_;
+  std::vector<Function> functions_; ///< in the order of their definitions
+  size_t callable_ = SIZE_MAX;      ///< how many of them may be called in what is being written
   std::vector<Frame> frames_;
 };
 
