@@ -13,6 +13,13 @@ namespace {
 constexpr uint32_t kAllResults = ~0U;
 bool is_wanted(uint32_t wanted, unsigned result) { return result >= 32 || (wanted >> result & 1) != 0; }
 
+/// Which results the code asks for: those of `wanted`, or all.
+uint32_t asked_results(const LibraryFunction& row, uint32_t wanted) {
+  const uint32_t all = row.result_count < 32 ? (1U << row.result_count) - 1 : kAllResults;
+  if ((wanted & all) == all || is_derivative_export(row.symbol)) return kAllResults; // derivatives take no null
+  return wanted & all;
+}
+
 /// Calls an export, which takes pointers (library.h): the parts of its results. Those that nobody wants are zero.
 llvm::SmallVector<llvm::Value*, 4> call_export(Builder& builder, llvm::function_ref<llvm::Value*(llvm::Type*)> allocate,
                                                llvm::Function& body, const LibraryFunction& row, const Domain& domain,
@@ -148,13 +155,6 @@ void write_lane_loop(llvm::Function& wrapper, llvm::Function& body, const Librar
 
 } // namespace
 
-/// Which results the code asks for: those of `wanted`, or all.
-static uint32_t asked_results(const LibraryFunction& row, uint32_t wanted) {
-  const uint32_t all = row.result_count < 32 ? (1U << row.result_count) - 1 : kAllResults;
-  if ((wanted & all) == all || is_derivative_export(row.symbol)) return kAllResults; // derivatives take no null
-  return wanted & all;
-}
-
 llvm::Function* ModuleEmitter::library_export(const LibraryFunction& row, bool varying) {
   const bool lane_by_lane = export_order(row.symbol) == 2;
   const std::string name =
@@ -211,7 +211,7 @@ std::vector<Lanes> FunctionEmitter::library_call(const LibraryFunction& row, con
                         asked_results(row, wanted), operands);
   } else {
     llvm::Value* result = builder.CreateCall(owner_.library_function(row, varying, wanted), operands);
-    unsigned count = 0;
+    unsigned count = 0; // the struct may have more (returned_struct)
     for (unsigned i = 0; i < row.result_count; ++i)
       count += component_count(row.results[i]);
     for (unsigned part = 0; part < count; ++part)

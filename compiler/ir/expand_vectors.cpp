@@ -37,9 +37,7 @@ private:
 
   ValueId append(Instruction instruction) {
     instruction.span = span_;
-    function_.instructions.push_back(std::move(instruction));
-    block_.push_back(static_cast<ValueId>(function_.instructions.size() - 1));
-    return block_.back();
+    return ir::append(function_, block_, std::move(instruction));
   }
   ValueId add(Op op, ValueType type, std::vector<ValueId> operands) {
     Instruction instruction{};

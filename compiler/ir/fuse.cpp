@@ -81,9 +81,7 @@ private:
     instruction.operands = std::move(operands);
     instruction.number = number;
     instruction.span = function_.instructions[at].span;
-    function_.instructions.push_back(std::move(instruction));
-    result.push_back(static_cast<ValueId>(function_.instructions.size() - 1));
-    return result.back();
+    return ir::append(function_, result, std::move(instruction));
   }
 
   void become_fma(ValueId id, std::vector<ValueId> operands) {

@@ -94,9 +94,7 @@ private:
     instruction.index = index;
     instruction.operands = std::move(operands);
     instruction.span = span;
-    function_.instructions.push_back(std::move(instruction));
-    result.push_back(static_cast<ValueId>(function_.instructions.size() - 1));
-    return result.back();
+    return ir::append(function_, result, std::move(instruction));
   }
 
   Function& function_;

@@ -3,6 +3,7 @@
 // never reaches it costs no time there. Products stay apart: `fuse` wants each for itself. A fault on a condition that
 // a fault before it has, on every path to it, hits no point that is left, and goes: `a % n` beside `a // n` is checked
 // once.
+#include "compiler/ir/hash.h"
 #include "compiler/ir/passes.h"
 #include "compiler/ir/walk.h"
 
@@ -28,7 +29,7 @@ struct KeyHash {
   size_t operator()(const Key& key) const {
     const Instruction& instruction = *key.instruction;
     size_t hash = static_cast<size_t>(instruction.op);
-    const auto mix = [&](uint64_t part) { hash = (hash ^ part) * 0x9e3779b97f4a7c15u + (hash >> 29); };
+    const auto mix = [&](uint64_t part) { hash = hash_with(hash, part); };
     mix(static_cast<uint64_t>(instruction.type));
     mix(instruction.index);
     mix(static_cast<uint64_t>(instruction.integer));

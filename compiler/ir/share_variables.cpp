@@ -5,6 +5,7 @@
 // together nothing is read and nothing branches, so whoever reads one of them finds all stored equally often. A walk
 // numbers the values that follow from this, equal computations alike, and whatever is stored unequal divides them;
 // again, until a walk divides nothing.
+#include "compiler/ir/hash.h"
 #include "compiler/ir/passes.h"
 #include "compiler/ir/walk.h"
 
@@ -21,7 +22,7 @@ struct KeyHash {
   size_t operator()(const Key& key) const {
     size_t hash = key.size();
     for (const uint64_t part : key)
-      hash = (hash ^ part) * 0x9e3779b97f4a7c15u + (hash >> 29);
+      hash = hash_with(hash, part);
     return hash;
   }
 };

@@ -31,6 +31,13 @@ inline std::vector<uint32_t> count_uses(const Function& function) {
   return uses;
 }
 
+/// Appends an instruction to a function and to what is to stand in a block.
+inline ValueId append(Function& function, std::vector<ValueId>& block, Instruction instruction) {
+  function.instructions.push_back(std::move(instruction));
+  block.push_back(static_cast<ValueId>(function.instructions.size() - 1));
+  return block.back();
+}
+
 /// Builds each block anew, the outermost last: rewrite(id, result) is called for each instruction in order, after its
 /// own inner blocks are done, and appends to `result` what stands in its place. It returns false where nothing that
 /// follows in the block is executed any more.
